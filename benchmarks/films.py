@@ -29,7 +29,7 @@ from scenes import Turns, s2
 from mars2d import Robot, Scenario
 from mars2d.addons import Map
 from mars2d.output.films.film import save_film
-from mars2d.output.films.footage import Cut, Footage, shots
+from mars2d.output.films.footage import Cut, shots
 from mars2d.output.films.mp4 import require_av
 from mars2d.output.raster.picture import Artist
 from mars2d.record.frame import Frame
@@ -73,17 +73,13 @@ def team(frames: int, *, seeing: bool, step: float = 0.05) -> Experiment:
 
 @dataclass
 class Reel:
-    """What is filmed: a record, and the frames of the live run where they are wanted."""
+    """What is filmed: a record, and how fast."""
 
     record: Record
     speed: float
-    footage: Footage | None = None
-    last: Frame | None = None
 
     def frames(self) -> Iterator[Frame]:
         """Yield the frames again."""
-        if self.footage is not None and self.last is not None:
-            return self.footage.frames(self.last)
         cut = Cut.of(float(self.record.time[-1]), self.speed, FPS)
         step = self.record.scenario.sampling_time
         return shots(cut, step, len(self.record) - 1, self.record.frame)
@@ -97,18 +93,9 @@ def reel(experiment: Experiment, speed: float | None = None) -> Reel:
     return Reel(world.record, pace)
 
 
-def live(experiment: Experiment) -> Reel:
-    """Run an experiment and take its frames."""
-    pace = experiment.scenario.sampling_time * FPS
-    footage = Footage(experiment.scenario, pace, FPS)
-    world = simulate(experiment, watchers=[footage])
-    return Reel(world.record, pace, footage, world.frame)
-
-
 SCENES: Mapping[str, Callable[[int], Reel]] = {
     "random_walk": lambda n: reel(example("random_walk", n)),
     "coverage_square": lambda n: reel(example("coverage_square", n)),
-    "coverage_square, live": lambda n: live(example("coverage_square", n)),
     "cyclic_pursuit": lambda n: reel(example("cyclic_pursuit", n)),
     "push_box": lambda n: reel(example("push_box", n)),
     "crowd": lambda n: reel(example("crowd", n)),

@@ -6,8 +6,9 @@ All are timed in turns, a hundred steps each, so that what other programs do bef
 processor's time counts. The game is one pursuer and one evader; both are commanded, and in
 `Environment` the evader has a law. `World.step` keeps no record, as in an environment, and calls
 `observe` after each step, as whoever wants to know of a capture has to. mpe2 and VMAS, with one
-environment, are timed where they are installed: pip install mpe2 vmas. Resets of the four tasks are
-timed, too.
+environment, are timed where they are installed: pip install mpe2 vmas. A step of a vector is one of
+each of its worlds, by `VectorEnvironment` and by gymnasium's loop over environments. Resets of the
+four tasks are timed, too.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import gymnasium
 import numpy as np
 import outcome
 
@@ -29,6 +31,9 @@ from mars2d.rl import Environment, ParallelEnvironment, tasks
 
 TURN = 100
 """Steps in a row."""
+
+WORLDS = 64
+"""The worlds of a vector."""
 
 Step = Callable[[], object]
 
@@ -104,6 +109,25 @@ def others() -> dict[str, Step]:
     return found
 
 
+def vectors(rounds: int) -> dict[str, float]:
+    """Return how many steps a second the worlds of vectors of the task pursuit make together."""
+    task = "mars2d.rl:mars2d/Pursuit-v0"
+    made = {
+        mode: gymnasium.make_vec(task, num_envs=WORLDS, vectorization_mode=mode)
+        for mode in ("vector_entry_point", "sync")
+    }
+    actions = np.random.default_rng(0).uniform(-1, 1, (rounds, WORLDS, 2)).astype(np.float32)
+    times: dict[str, list[float]] = {mode: [] for mode in made}
+    for many in made.values():
+        many.reset(seed=0)
+    for action in actions:
+        for mode, many in made.items():
+            began = time.process_time()
+            many.step(action)
+            times[mode].append((time.process_time() - began) / WORLDS)
+    return {mode: 1 / statistics.median(each) for mode, each in times.items()}
+
+
 def resets(rounds: int) -> dict[str, float]:
     """Return the median time of a reset of each task, ms."""
     found = {}
@@ -150,9 +174,12 @@ def main() -> None:
             f"{name:<20} {each['steps_per_second']:8.0f} steps/s, "
             f"{each['time_over_world_step']:5.2f} times World.step"
         )
+    many = vectors(arguments.rounds)
+    told = ", ".join(f"{each:.0f} steps/s by {mode}" for mode, each in many.items())
+    print(f"{WORLDS} worlds of pursuit: {told}")
     took = resets(arguments.rounds)
     print("reset: " + ", ".join(f"{name} {each:.2f} ms" for name, each in took.items()))
-    outcome.write(measured | {"reset_ms": took}, arguments.json)
+    outcome.write(measured | {"vectors": many, "reset_ms": took}, arguments.json)
 
 
 if __name__ == "__main__":

@@ -33,6 +33,8 @@ if TYPE_CHECKING:
     from mars2d.tournaments.tournament import tournament
     from mars2d.window.entry import run
     from mars2d.world.record import Record, load
+    from mars2d.world.team_view import WorldView
+    from mars2d.world.views import RobotView
     from mars2d.world.world import World
 
 __version__ = "0.1.0"
@@ -60,12 +62,14 @@ __all__ = [
     "Range",
     "Record",
     "Robot",
+    "RobotView",
     "Scenario",
     "Sensor",
     "Table",
     "Unicycle",
     "Within",
     "World",
+    "WorldView",
     "__version__",
     "load",
     "load_law",
@@ -99,6 +103,8 @@ _HOMES = {
     "tournaments.tournament": ("tournament",),
     "window.entry": ("run",),
     "world.record": ("Record", "load"),
+    "world.team_view": ("WorldView",),
+    "world.views": ("RobotView",),
     "world.world": ("World",),
 }  # fmt: skip
 """The modules of the names, which are imported when a name is first asked for."""

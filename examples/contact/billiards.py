@@ -50,7 +50,7 @@ def checks(record):
     m, d, speed = balls[0].mass, balls[0].diameter, balls[0].velocity[0]
     offset = balls[1].pose[1] - balls[0].pose[1]
     alike = all((b.mass, b.friction, b.ground_friction) == (m, 0, 0) for b in balls)
-    if not alike or record.contacts["began"].sum() != 5:
+    if not alike or record.contacts["began"].sum() != 5 or offset > 0.99 * d:  # it only grazes
         yield Prediction.silent("speeds", "for smooth, equal balls that glide, and meet just once")
         return
     vx, vy = np.diff(record.prop_pose[-2:, :2], axis=0)[0] / record.scenario.sampling_time

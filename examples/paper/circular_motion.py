@@ -6,7 +6,7 @@ g(rho, r) = ln((rho + r) / (2 r)): to what is further than r, from what is neare
 of the beacon is from PSI - 2 pi to PSI, so they turn left. In view is who is nearer than D_S, or
 than D_L and |beta_j| <= pi / n. Source: Ceccarelli et al., Automatica 44(12), 2008, with c = 2.
 Prediction: a circle, v / radius = k_b g(radius, RHO_0) pi / 2, if k_v <= 2 k_b and the least rho g,
--0.1448 RHO_0, is > -2 v / (3 pi k_b); even gaps, but D_0 to the next one where that is shorter.
+-0.1448 RHO_0, is > -2 v / (3 pi k_b); even gaps, or of D_0 at least where that is shorter.
 The MARS paper (Fig. 8) gives the beacon's way alone; lengths and gains are ours, and fit its room.
 """
 
@@ -48,13 +48,25 @@ def scenario(n=4, radius=0.7, k_b=0.63, k_v=0.75):  # -, m, rad/s, rad/s
     )
 
 
+def seen_from_lamp(record, time):
+    """Return distances and gaps [degrees] of the robots round the lamp."""
+    lamp, row = record.scenario.addons[0].where(time), np.searchsorted(record.time, time - 1e-9)
+    x, y = record.pose[row, :2] - np.transpose([lamp])
+    gaps = np.diff(np.sort(np.degrees(np.arctan2(y, x))))
+    return np.hypot(x, y), [*gaps, 360 - gaps.sum()]
+
+
 def checks(record):
     (radius, k_b, k_v), end = record.scenario.robots[0].controller.args, record.time[-1]
     if k_v > 2 * k_b or radius * g(radius, RHO_0) <= 3 * 0.1448 * RHO_0:
         yield Prediction.silent("radius and gaps", "k_v or the radius is beyond what is proven")
     elif end >= 200:  # else they are not there yet
-        x, y = record.pose[-1, :2] - np.transpose([record.scenario.addons[0].where(end)])
-        yield Prediction.within("radius", radius, np.hypot(x, y).mean(), 3, "m")
-        gaps = np.diff(np.sort(np.degrees(np.arctan2(y, x))))
-        gap = 360 - len(gaps) * degrees(2 * asin(min(D_0 / 2 / radius, sin(pi / len(x)))))
-        yield Prediction("widest gap", gap, max(*gaps, 360 - gaps.sum()), 2, "degrees")
+        (rho, gaps), (_, before) = (seen_from_lamp(record, time) for time in (end, end - 20))
+        if abs(max(gaps) - max(before)) > 1:
+            yield Prediction.silent("radius and gaps", "gaps have changed in the last 20 s")
+            return
+        yield Prediction.within("radius", radius, rho.mean(), 3, "m")
+        even, near = sin(pi / len(gaps)), D_0 / 2 / radius
+        gap = 360 - (len(gaps) - 1) * degrees(2 * asin(min(near, even)))
+        bound = "equal" if near >= even else "at most"  # several may lose sight of the next one
+        yield Prediction("widest gap", gap, max(gaps), 2, "degrees", bound=bound)

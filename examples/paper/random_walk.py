@@ -2,7 +2,8 @@
 
 Setting: distributed with sensors only. Source: Casini & Garulli (2016), section 4.
 Prediction: a turn is even in (90, 270) degrees: its mean is 180, its standard deviation ("spread")
-180 / sqrt(12). Robots that touch nothing go 0.2 m in each step in which they don't turn.
+180 / sqrt(12), unless the wheels are too slow for some of them. They go 0.2 m in each step in which
+they don't turn, or less if they touch something.
 Measured: all turns of both, to four standard errors; how far both went.
 """
 
@@ -47,11 +48,17 @@ scenario = Scenario(
 
 
 def checks(record):
-    v, omega = record.command[:-1, 0], record.command[:-1, 1]  # (steps, n)
-    turns, spread = np.degrees(omega[v == 0]), 180 / np.sqrt(12)
+    step, drive = record.scenario.sampling_time, record.scenario.robots[0].drive
+    v, omega = record.command[:-1].swapaxes(0, 1) * step  # (steps, n), m and rad
+    fastest = np.degrees(drive.max_linear_speed / drive.wheel_semiaxis)
+    wanted = np.minimum(np.linspace(90, 270, 100_001), fastest) * step
+    turns, mean, spread = np.degrees(omega[v == 0]), wanted.mean(), wanted.std()
     if len(turns):
-        sure = 4 * spread / np.sqrt(len(turns))
-        yield Prediction("turn, mean", 180, turns.mean(), sure, "degrees")
-        yield Prediction("turn, spread", spread, turns.std(), sure * np.sqrt(0.2), "degrees")
+        fourth = ((wanted - mean) ** 4).mean() / max(spread, 1e-6) ** 4  # 9 / 5 if none is cut
+        sure = 4 * max(spread, 1e-6) / np.sqrt(len(turns))
+        of_spread = sure * np.sqrt(max(fourth - 1, 0.2) / 4)
+        yield Prediction("turn, mean", mean, turns.mean(), sure, "degrees")
+        yield Prediction("turn, spread", spread, turns.std(), of_spread, "degrees")
     path = np.hypot(*np.diff(record.pose[:, :2], axis=0).transpose(1, 0, 2)).sum()
-    yield Prediction.within("path of both", 0.2 * np.count_nonzero(v), path, percent=1, unit="m")
+    way, bound = abs(v).sum(), "at most" if record.collisions else "equal"
+    yield Prediction("path of both", way, path, 0.01 * way, "m", bound=bound)

@@ -9,7 +9,7 @@ explorer, which evades lamps. Source: V. Braitenberg, Vehicles (1984), vehicles 
 """
 
 from functools import partial
-from math import cos, pi, sqrt
+from math import atan2, cos, pi, sin, sqrt
 
 import numpy as np
 
@@ -52,7 +52,15 @@ def checks(record):
     rest = FRONT + sqrt(-gain * cos(TURN) / base - H**2)
     away = np.hypot(abs(record.pose[:, 0]) - LAMP, record.pose[:, 1])  # (T, 4), of the nearest lamp
     pace = np.hypot(*(record.pose[-1, :2] - record.pose[-2, :2])) / record.scenario.sampling_time
-    yield Prediction("fear: pace in the dark", WHEEL * base / 3, pace[0], 0.01, "m/s")
     yield Prediction("aggression: nearest to a lamp", 0, away[:, 1].min(), 0.05, "m")
-    yield Prediction.within("love: rests before a lamp at", rest, away[-1, 2], 5, "m")
-    yield Prediction("explorer: pace in the dark", WHEEL * base, pace[3], 0.01, "m/s")
+    x, y, theta = record.pose[-1]
+    for k, name, predicted in ((0, "fear", WHEEL * base / 3), (3, "explorer", WHEEL * base)):
+        ahead = max(cos(atan2(-y[k], lamp - x[k]) - theta[k]) for lamp in (-LAMP, LAMP))
+        if ahead < -sin(TURN):  # no eye feels any lamp
+            yield Prediction(f"{name}: pace in the dark", predicted, pace[k], 0.01, "m/s")
+        else:
+            yield Prediction.silent(f"{name}: pace in the dark", "it still sees a lamp")
+    if pace[2] < 0.1 * WHEEL * base:
+        yield Prediction.within("love: rests before a lamp at", rest, away[-1, 2], 5, "m")
+    else:
+        yield Prediction.silent("love: rests before a lamp at", "it is still on its way")

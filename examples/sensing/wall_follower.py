@@ -55,6 +55,13 @@ def checks(record):
     wave = np.cos(PACE * s * t) + z / s * np.sin(PACE * s * t)  # s is imaginary where z > 1
     curve = OFF * np.exp(-z * PACE * t) * wave.real
     error, nearest = TOP - distance - record.pose[:400, 1, 0], distance + min(curve)
-    yield Prediction("least distance to the first wall", nearest, distance + min(error), 0.02, "m")
-    yield Prediction("farthest from the curve of theory", 0, np.abs(error - curve).max(), 0.03, "m")
+    name = "least distance to the first wall"
+    heading = np.abs(np.gradient(curve, t)).max() / SPEED
+    if heading > record.scenario.robots[0].sensors[0].cone / 2:
+        why = "it is to turn so far that its sonar does not hear the nearest point of the wall"
+        yield Prediction.silent(name, why)
+    else:
+        yield Prediction(name, nearest, distance + min(error), 0.02, "m")
+        off = np.abs(error - curve).max()
+        yield Prediction("farthest from the curve of theory", 0, off, 0.03, "m")
     yield Prediction("collisions", 0, record.collisions, 0)

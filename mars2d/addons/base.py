@@ -8,17 +8,18 @@ from typing import Any, ClassVar
 import numpy as np
 
 from mars2d.core import checks
-from mars2d.core.description import Stateful, entry, number, snake_case, text
+from mars2d.core.description import Stateful, entry, number, snake_case
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.materials import check_static, surface_friction, surface_restitution
 from mars2d.core.plane import Outline, Point
 from mars2d.core.scene import Scene
+from mars2d.core.words import instead
 
 Color = tuple[float, float, float]
 """Red, green and blue from 0 to 1."""
 
-HOOKS = ("on_start", "on_step", "on_sensed", "on_draw", "on_stop")
-"""All hooks: MARS's Initialize, Loop and Plot of an add-on, and two for sensing and the end."""
+HOOKS = ("on_start", "on_step", "on_sensed", "on_contact", "on_draw", "on_stop")
+"""All hooks: MARS's Initialize, Loop and Plot of an add-on; for sensing, touches and the end."""
 
 
 class Addon(Stateful):
@@ -30,13 +31,15 @@ class Addon(Stateful):
     ...     def on_step(self, world):
     ...         self.steps += 1
 
-    A hook is a method named on_start, on_step, on_sensed, on_draw or on_stop; any other ``on_...``
-    is an error. In a scenario an add-on is frozen. Each world works on a copy of its own, on which
-    hooks may set attributes; laws find it as ``world.addons.<name>``. The hooks get the
+    A hook is a method named as in `HOOKS`; any other ``on_...`` is an error. In a scenario an
+    add-on is frozen. Each world works on a copy of its own, on which hooks may set attributes; laws
+    find it as ``world.addons.<name>``. The hooks get the
     `World`, see `mars2d.core.interfaces.WorldLike`; `draw` and `theory` a `Frame`, see `FrameLike`.
     """
 
-    name: str | None = text(default=None, optional=True, doc="the name in world.addons")
+    name: str | None = entry(
+        default=None, check=checks.identifier("world.addons."), doc="the name in world.addons"
+    )
 
     friction: float = entry(
         default=1.0, check=surface_friction,
@@ -63,9 +66,8 @@ class Addon(Stateful):
     def __init_subclass__(cls, **kwargs: Any) -> None:
         for attribute in vars(cls):
             if attribute.startswith("on_") and attribute not in HOOKS:
-                raise InputError(
-                    f"{cls.__name__}.{attribute} is no hook of an add-on{nearest(attribute, HOOKS)}"
-                )
+                hint = instead(attribute, "a hook") or nearest(attribute, HOOKS)
+                raise InputError(f"{cls.__name__}.{attribute} is no hook of an add-on{hint}")
         super().__init_subclass__(**kwargs)
 
     @property
@@ -74,9 +76,7 @@ class Addon(Stateful):
         return self.name or snake_case(type(self).__name__)
 
     def _validate(self) -> None:
-        kind = type(self).__name__
-        checks.identifier(f"{kind}.name", self.name, "world.addons.")
-        check_static(f"{kind}.static_friction", self.static_friction, self.friction)
+        check_static(f"{type(self).__name__}.static_friction", self.static_friction, self.friction)
 
     @property
     def acts(self) -> bool:
@@ -125,6 +125,13 @@ class Addon(Stateful):
 
     def on_sensed(self, world: Any) -> None:
         """Act at each control step, after the sensors are read and before the laws are asked."""
+
+    def on_contact(self, world: Any, contact: Any) -> None:
+        """Act where two bodies have come to touch, or have parted, before `on_step`.
+
+        contact: the row of `world.contacts`, with the time, the bodies `a` and `b`, the impulses,
+        and whether it `began` and `ended` in the last control step; a bounce does both.
+        """
 
     def on_draw(self, world: Any, scene: Scene) -> None:
         """Add shapes to the picture of the world, beneath the robots."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 from abc import abstractmethod
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 
@@ -86,6 +86,14 @@ class Contest(Addon):
     scored: ClassVar[tuple[str, str]] = ("", "")
     """What the score of each role counts, in a word for people."""
 
+    def renamed(self, old: str, new: str) -> Self:
+        """Return a copy in which a robot has another name; roles keep theirs."""
+        roles = [
+            (role, tuple(new if robot == old else robot for robot in robots))
+            for role, robots in self.roles
+        ]
+        return super().renamed(old, new).replace(roles=roles)
+
     @abstractmethod
     def outcome(self, record: Any) -> Outcome:
         """Return captures, score and winner of a record, loaded or just made."""
@@ -117,6 +125,10 @@ class Contest(Addon):
         It is -1 for one that has been caught or shoved out, and 1 for one that is safe.
         """
         return {}
+
+    def players(self, scenario: ScenarioLike) -> Teams:
+        """Return the indices of the robots that may leave, or let others leave, by role."""
+        return self.teams(scenario)
 
     def teams(self, scenario: ScenarioLike) -> Teams:
         """Return the indices of the first role's robots in a scenario, and of the second role's.

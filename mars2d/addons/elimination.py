@@ -62,24 +62,31 @@ class Elimination(Contest):
     def ending(self, world: WorldLike) -> str:
         """Return why it is over now, in words; "" while it goes on."""
 
-    def players(self, scenario: ScenarioLike) -> Teams:
-        """Return the indices of the robots that may leave, or let others leave, by role."""
-        return self.teams(scenario)
+    def time_is_over(self, scenario: ScenarioLike, row: int) -> bool:
+        """Return whether time is over for the contest at a row of a run."""
+        return row >= scenario.last_iteration
 
     def on_start(self, world: WorldLike) -> None:
         """Find the robots; raise InputError if one is not there, or has two roles."""
         self._teams, self._time_is_over = self.players(world.scenario), False
         self._exits: tuple[Exit, ...] = ()
+        self._before: tuple[float, Float] | None = None  # the last control step
 
     def on_step(self, world: WorldLike) -> None:
         """Note who leaves; end the experiment when it is decided, or when time is over."""
-        out = self.results
-        one, other = (tuple(robot for robot in team if robot not in out) for team in self._teams)
-        span = Span(world.scenario, np.array([world.time]), world.pose[None], world.contacts)
+        one, other, out, time = *self._teams, self.results, world.time
+        if out:
+            one, other = (tuple(r for r in team if r not in out) for team in self._teams)
+        before = self._before or (time, world.pose)
+        times, poses = map(np.array, zip(before, (time, world.pose), strict=True))
+        self._before = time, world.pose
+        span = Span(world.scenario, times, poses, world.contacts)
         now = self.exits((one, other), span)
         self._exits += tuple(now)
-        self._time_is_over = world.iteration >= world.scenario.last_iteration
-        if why := self.ending(world):
+        self._time_is_over = self.time_is_over(world.scenario, world.iteration)
+        changes = now or self._time_is_over or not world.iteration  # else it stands as before
+        why = self.ending(world) if changes else ""
+        if why:
             world.stop(why)
         for leaving in now if self.holds_last or not why else ():
             world.hold(leaving.robot)
@@ -104,7 +111,7 @@ class Elimination(Contest):
         teams = self.players(record.scenario)
         contacts = record.contacts[record.contact_rows < len(record)]  # before its last row
         exits = self.exits(teams, Span(record.scenario, record.time, record.pose, contacts))
-        return self.judged(teams, exits, len(record) > record.scenario.last_iteration)
+        return self.judged(teams, exits, self.time_is_over(record.scenario, len(record) - 1))
 
     def exits_at(self, frame: FrameLike) -> list[Exit]:
         """Return who has left at a frame."""

@@ -52,8 +52,9 @@ class Estimate(Addon):
     """
 
     robot: str | None = text(
-        default=None, optional=True, doc="the robot; None: the first one with odometry"
-    )
+        default=None, optional=True, doc="the robot; None: the first one with odometry",
+        names="robot",
+    )  # fmt: skip
     probability: float = number(
         default=0.95,
         above=0,

@@ -13,7 +13,7 @@ from mars2d.addons.contest import Capture, Outcome, Teams, listed, robots_of
 from mars2d.addons.elimination import Elimination, Exit, Float, Span, firsts, mark
 from mars2d.core import checks
 from mars2d.core.arithmetic import norms
-from mars2d.core.description import accepts, entry, flag, integer, real, wrong
+from mars2d.core.description import accepts, entry, flag, integer, number, real, wrong
 from mars2d.core.errors import InputError, counted, likely, ordinal
 from mars2d.core.interfaces import FrameLike, ScenarioLike, WorldLike
 from mars2d.core.plane import Outline, edges_of, outside_polygon
@@ -25,6 +25,9 @@ if TYPE_CHECKING:
 CONTACT, SIGHT = "contact", "sight"
 GRASS = "#dcebdc"
 """The colour of the floor of a goal."""
+FURTHER = 2.0
+"""How many times its drive's speed a robot is never pushed at."""
+TINY = 1e-30
 
 
 @accepts({"anyOf": [{"type": "number", "exclusiveMinimum": 0}, {"enum": [CONTACT, SIGHT]}]})
@@ -48,22 +51,24 @@ class Game(Elimination):
     (('pursuer', ('red',)), ('evader', ('blue',)))
 
     An evader is caught when a hunter touches it, comes as near as `capture`, or has it in sight:
-    then no obstacle lies on the line between their poses. This is checked once a control step. A
-    caught evader stands still from then on, and the game goes on with the others.
+    then no obstacle lies on the line between their poses. This is checked once a control step, for
+    nearness on the straight ways that both have come since the last one. A caught evader brakes
+    from then on, but can be pushed, and shields others; the game goes on with those. Where
+    `capture` is None nobody is caught: bodies alone keep evaders from their goal.
 
     With a `goal`, an evader is safe as soon as its pose is in it, and stands still there, too;
     without one, it is safe when time is over. The hunters need `wanted` captures, by default of
     all. The evaders have won when too many are safe for that; with a goal the hunters have won when
-    time is over before. Either ends the experiment, unless it goes on `to_the_end`. Whatever else
-    ends it leaves a game undecided.
+    time is over before, which is at the `par` if there is one. Either ends the experiment, unless
+    it goes on `to_the_end`. Whatever else ends it leaves a game undecided.
 
     Laws find how it stands in `score`, `winner`, `caught`, `free`, `safe` and `capture_times`. Of
     a record, `outcome` says the same, also of a loaded one.
     """
 
-    capture: str | float = entry(
-        default=CONTACT, check=_capture, unit="m",
-        doc="'contact', 'sight', or the distance of a hunter's pose from an evader's at a capture",
+    capture: str | float | None = entry(
+        default=CONTACT, check=checks.optional(_capture), unit="m",
+        doc="'contact', 'sight', a hunter's distance from an evader, or None: nobody is caught",
     )  # fmt: skip
     goal: Outline | None = entry(
         default=None, check=checks.optional(checks.outline, 3), unit="m",
@@ -72,17 +77,27 @@ class Game(Elimination):
     hunted: tuple[str | int, ...] | None = entry(
         default=None, check=checks.optional(robots_of),
         doc="the robots to catch, if not those of the second role, which then help them",
+        names="robot",
     )  # fmt: skip
     wanted: int | None = integer(
         default=None, low=1, high=10**6, optional=True,
         doc="the number of captures that the hunters need; None: all of the hunted",
     )  # fmt: skip
 
+    par: float | None = number(
+        default=None, above=0, high=1e9, optional=True, unit="s",
+        doc="when time is over for who has to catch, or to reach the goal; None: the stop time",
+    )  # fmt: skip
     to_the_end: bool = flag(
         default=False, doc="go on, though it is decided, until nobody is left to catch"
     )
 
     # -- how it stands -----------------------------------------------------------------------------
+
+    def _validate(self) -> None:
+        super()._validate()
+        if self.capture is None and self.goal is None:
+            raise wrong("Game.capture", None, "a way to capture, or a goal that evaders must reach")
 
     def players(self, scenario: ScenarioLike) -> Teams:
         """Return the indices of the hunters in a scenario, and of those that they hunt.
@@ -106,11 +121,12 @@ class Game(Elimination):
 
     def exits(self, teams: Teams, span: Span) -> list[Exit]:
         """Return the evaders that are caught, in order, then those that reach the goal before."""
+        captures: list[Exit] = []
         if self.capture == CONTACT:
             captures = _touches(teams, span)
         elif self.capture == SIGHT:
             captures = _approaches(teams, span, np.inf, _sights(teams, span))
-        else:
+        elif self.capture is not None:
             captures = _approaches(teams, span, float(self.capture), np.True_)
         safe = []
         if self.goal is not None:
@@ -130,15 +146,24 @@ class Game(Elimination):
         (hunting, _), (evading, _) = self.roles
         captures = tuple(Capture(e.time, e.hunter, e.robot) for e in exits if e.hunter is not None)
         needed, left = self.wanted or len(teams[1]), len(teams[1]) - len(captures)
-        safe = left if time_is_over and self.goal is None else len(exits) - len(captures)
+        in_time = [leaving for leaving in exits if leaving.time <= (self.par or np.inf)]
+        caught = sum(leaving.hunter is not None for leaving in in_time)
+        safe = (
+            len(teams[1]) - caught if time_is_over and self.goal is None else len(in_time) - caught
+        )
         winner = None
-        if len(captures) >= needed:
+        if caught >= needed:
             winner = hunting
         elif safe > len(teams[1]) - needed:
             winner = evading
         elif time_is_over:
             winner = hunting
         return Outcome(captures, {hunting: len(captures), evading: left}, winner)
+
+    def time_is_over(self, scenario: ScenarioLike, row: int) -> bool:
+        """Return whether a row is the last one, or after the par."""
+        late = self.par is not None and row * scenario.sampling_time > self.par
+        return late or super().time_is_over(scenario, row)
 
     @property
     def captures(self) -> tuple[Capture, ...]:
@@ -167,7 +192,7 @@ class Game(Elimination):
 
     def ending(self, world: WorldLike) -> str:
         """Return why the game is over now, in words; "" while it goes on."""
-        goes_on = self.to_the_end and self.free and not self._time_is_over
+        goes_on = self.to_the_end and self.free and world.iteration < world.scenario.last_iteration
         if self.winner is None or goes_on:
             return ""
         names = [str(robot.name) for robot in world.scenario.robots]
@@ -178,7 +203,8 @@ class Game(Elimination):
             which = "last" if count == evaders else ordinal(count)
             whom = names[evader] + (f", the {which} of {evaders}," if evaders > 1 else "")
             verb = "sees" if self.capture == SIGHT else "catches"
-            return f"{names[hunter]} {verb} {whom} after {round(time, 2):g} s{wins}"
+            late = f", not within {self.par:g} s" if self.winner == self.roles[1][0] else ""
+            return f"{names[hunter]} {verb} {whom} after {round(time, 2):g} s{late}{wins}"
         if self.goal is not None and self.winner == self.roles[1][0]:
             count = len(self.safe)
             who = f"{names[self.safe[0]]} has" if evaders == 1 else f"{count} of {evaders} have"
@@ -197,15 +223,18 @@ class Game(Elimination):
         """Return how hunters or evaders win, in a few words."""
         _, evaders = self.players(scenario)
         needed, whom = self.wanted or len(evaders), listed(scenario, evaders)
-        time = f"for {scenario.last_iteration * scenario.sampling_time:g} s"
+        seconds = self.par or scenario.last_iteration * scenario.sampling_time
+        time = f"for {seconds:g} s"
         if role == self.roles[0][0]:
             verb = "see" if self.capture == SIGHT else "catch"
+            if self.capture is None:
+                return f"keep {whom} from the goal {time}"
             some = whom if needed == len(evaders) else f"{needed} of {len(evaders)}"
             if self.goal is None:
-                return f"{verb} {some}"
+                return f"{verb} {some}" + (f" within {self.par:g} s" if self.par else "")
             return f"{verb} {some} before {_so_many_are(len(evaders), needed)} in the goal"
         if self.goal is not None:
-            return "reach the goal uncaught"
+            return "reach the goal" + ("" if self.capture is None else " uncaught")
         if self.hunted is not None:
             return f"let nobody catch {whom} {time}"
         return f"stay out of sight {time}" if self.capture == SIGHT else f"stay free {time}"
@@ -228,13 +257,16 @@ class Game(Elimination):
         hunters_win, evaders_win = (
             f"{role} win" if role.endswith("s") else f"{role} wins" for role in (hunting, evading)
         )
-        goal = f"The {evaders_win} when {_so_many_are(count, needed)} in the goal uncaught."
+        over = f"{self.par:g} s are over" if self.par else "time is over"
+        in_goal = f"The {evaders_win} when {_so_many_are(count, needed)} in the goal"
+        if self.capture is None:
+            return f"Nobody is caught. {in_goal}. If {over} before, the {hunters_win}."
         sentences = (
             f"A capture is when {hunter} {how}.",
             "Who is caught stands still." if count > 1 else "",
             f"The {hunters_win} with {'the capture' if needed == 1 else f'{needed} captures'}.",
-            goal if self.goal is not None else "",
-            f"If time is over before, the {evaders_win if self.goal is None else hunters_win}.",
+            f"{in_goal} uncaught." if self.goal is not None else "",
+            f"If {over} before, the {evaders_win if self.goal is None else hunters_win}.",
         )
         return " ".join(filter(None, sentences))
 
@@ -248,7 +280,7 @@ class Game(Elimination):
     def draw(self, scene: Scene, frame: FrameLike) -> None:
         """Cross out the caught ones, ring those that are safe; draw the hunters' reach."""
         scenario = frame.scenario
-        if not isinstance(self.capture, str):
+        if isinstance(self.capture, float):
             for robot in self.players(scenario)[0]:
                 color = faded(scenario.colors[robot], 0.5)
                 scene.circle(frame.pose[:2, robot], self.capture, stroke=color)
@@ -271,19 +303,22 @@ def _so_many_are(count: int, needed: int) -> str:
 def _touches(teams: Teams, span: Span) -> list[Exit]:
     """Return an exit for each touch of a hunter and an evader, in the order of the contacts."""
     hunters, evaders = teams
-    a, b = span.contacts["a"], span.contacts["b"]
+    met = span.contacts[np.minimum(span.contacts["a"], span.contacts["b"]) >= 0]  # no obstacles
+    if not len(met):
+        return []
+    a, b = met["a"], met["b"]
     hunts = np.isin(a, hunters) & np.isin(b, evaders)
     hunted = np.isin(b, hunters) & np.isin(a, evaders)
     return [
-        Exit(float(span.contacts["time"][k]), int(evader), -1.0, int(hunter))
+        Exit(float(met["time"][k]), int(evader), -1.0, int(hunter))
         for k in np.flatnonzero(hunts | hunted)
         for hunter, evader in [(a[k], b[k]) if hunts[k] else (b[k], a[k])]
     ]
 
 
-def _lines(teams: Teams, span: Span) -> Sequence[Float]:
-    """Return the ends of the lines from hunters to evaders, two arrays (T, h, e, 2)."""
-    hunters, evaders = (span.pose[:, :2, list(team)].swapaxes(1, 2) for team in teams)
+def _lines(teams: Teams, position: Float) -> Sequence[Float]:
+    """Return the ends of the lines from hunters to evaders, (T, h, e, 2). position: (T, 2, n)."""
+    hunters, evaders = (position[:, :, list(team)].swapaxes(1, 2) for team in teams)
     return np.broadcast_arrays(hunters[:, :, None], evaders[:, None])
 
 
@@ -291,7 +326,7 @@ def _sights(teams: Teams, span: Span) -> NDArray[np.bool_]:
     """Return which evaders are in sight of which hunters (T, h, e): no edge is between them."""
     import shapely
 
-    lines = shapely.linestrings(np.stack(_lines(teams, span), axis=-2))
+    lines = shapely.linestrings(np.stack(_lines(teams, span.pose[:, :2]), axis=-2))
     hidden, _ = _edges(span.scenario.obstacles).query(lines.ravel(), predicate="crosses")
     seen = np.ones(lines.size, dtype=bool)
     seen[hidden] = False
@@ -307,15 +342,34 @@ def _edges(obstacles: tuple[Outline, ...]) -> shapely.STRtree:
     return shapely.STRtree(shapely.linestrings(np.reshape(ends, (-1, 2, 2))))
 
 
+def _distances(teams: Teams, span: Span, *, passing: bool) -> Float:
+    """Return the distances (T, h, e) of hunters from evaders, metres.
+
+    passing: return the least on the straight ways from the poses before. Who has come further than
+    its drive takes it was put there, and has passed nobody.
+    """
+    there = span.pose[:, :2]
+    start, end = _lines(teams, there)
+    apart = end - start
+    if passing:
+        before = np.concatenate([there[:1], there[:-1]])
+        fastest = np.array([robot.drive.max_linear_speed for robot in span.scenario.robots])
+        far = FURTHER * fastest * np.diff(span.time, prepend=span.time[:1])[:, None]
+        put = norms(*(there - before).swapaxes(0, 1)) > far
+        start, end = _lines(teams, np.where(put[:, None], there, before))
+        way = apart - (end - start)
+        share = (apart * way).sum(axis=-1) / np.maximum((way**2).sum(axis=-1), TINY)
+        apart = apart - share.clip(0.0, 1.0)[..., None] * way
+    return norms(*np.moveaxis(apart, -1, 0))
+
+
 def _approaches(teams: Teams, span: Span, reach: float, seen: Any) -> list[Exit]:
     """Return the first capture of each evader by the nearest hunter in reach, in order.
 
     seen: whom the hunters see (T, h, e).
     """
     hunters, evaders = teams
-    start, end = _lines(teams, span)
-    x, y = np.moveaxis(start - end, -1, 0)
-    distance = np.where(seen, norms(x, y), np.inf)
+    distance = np.where(seen, _distances(teams, span, passing=np.isfinite(reach)), np.inf)
     near = distance.min(axis=1)
     there = (near <= reach) & np.isfinite(near)
     return [

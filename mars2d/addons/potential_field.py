@@ -1,4 +1,4 @@
-"""The artificial potential field of an experiment: waypoints attract, obstacles repel."""
+"""The artificial potential field of an experiment: waypoints attract, all else repels."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ CROSS = 0.4
 
 
 class PotentialField(Addon):
-    """A potential in which each robot's next waypoint attracts it, and obstacles repel.
+    """A potential in which each robot's next waypoint attracts it; obstacles and robots repel.
 
     >>> PotentialField(reach=0.5).reach
     0.5
 
     Laws ask ``world.addons.potential_field.force(robot)``. Obstacles are those of the scenario,
     goals those of the add-on Waypoints; `of` returns their `Potential`, `plan` predicts where it
-    leads. The theory that is drawn is the direction of the force on one robot, and crosses at the
-    local minima in which robots are caught.
+    leads a robot that meets no other. The theory that is drawn is the direction of the force on one
+    robot, and crosses at the local minima in which robots are caught.
 
     Source: Khatib, Int. Journal of Robotics Research 5(1), 1986.
     """
@@ -46,6 +46,7 @@ class PotentialField(Addon):
         default=None,
         optional=True,
         doc="the robot whose field is drawn; None: that of the last route",
+        names="robot",
     )
     spacing: float = number(
         default=1.0, low=0.1, high=1e6, unit="m", doc="the spacing of the drawn grid"
@@ -70,7 +71,7 @@ class PotentialField(Addon):
         )
 
     def force(self, robot: int) -> Point:
-        """Return the force (Fx, Fy) [m/s] on a robot, by its index, where it is now.
+        """Return the force (Fx, Fy) [m/s] on a robot, by its index, where it and the others are.
 
         Raises InputError where there is no add-on Waypoints, LawError for one without a waypoint.
         """
@@ -79,7 +80,10 @@ class PotentialField(Addon):
             raise InputError(
                 "PotentialField.force is that of a world: world.addons.potential_field"
             )
-        return self._field.force(world.position[:, robot].tolist(), self._live_goals.goal(robot))
+        radii = [each.radius for each in world.scenario.robots]
+        discs = list(zip(*world.position.tolist(), radii, strict=True))
+        x, y, _ = discs.pop(robot)
+        return self._field.force((x, y), self._live_goals.goal(robot), discs)
 
     def on_start(self, world: WorldLike) -> None:
         """Take the world and its obstacles."""

@@ -45,6 +45,7 @@ class Trails(Addon):
         default=None,
         check=names("a list of robots' names, such as ['robot0', 'leader'], or None"),
         doc="the names of robots with a trail; None: all robots",
+        names="robot",
     )
     width: float = number(
         default=2.5, above=0, high=50, unit="points", doc="width of the line, on the screen or page"

@@ -117,6 +117,11 @@ class Drives:
         self._rated = [team for team in self._teams if {*team.drive.rates} != {None}]
         self._noisy = [team for team in self._teams if team.noise is not None]
 
+    @property
+    def exact(self) -> bool:
+        """Whether all follow their commands at once and without noise."""
+        return not (self._rated or self._noisy)
+
     def limit(self, command: Float, last: Float) -> Float:
         """Limit commands (m, n), in place, to those that drives can follow after the last (m, n).
 
@@ -196,8 +201,12 @@ class Drives:
         return twist
 
 
+FAR = 2.0
+"""How many times larger than what a drive does a command is that is far beyond its bounds."""
+
+
 class Cuts:
-    """The commands that the drives' bounds have cut: how many of each robot, and the last ones."""
+    """The commands far beyond the drives' bounds: how many of each robot, and the last ones."""
 
     def __init__(self, still: Float) -> None:
         """Take the commands (m, n) of robots that stand still."""
@@ -205,8 +214,8 @@ class Cuts:
         self.asked = still.copy()
 
     def note(self, team: _Team, asked: Float, done: Float) -> None:
-        """Note which commands of some robots are not done as asked."""
-        cut = (asked != done).any(axis=0)
+        """Note which commands of some robots are cut to less than half."""
+        cut = np.abs(asked).max(axis=0) > FAR * np.abs(done).max(axis=0)
         self.count[team.columns] += cut
         team.write(self.asked, np.where(cut, asked, team.part(self.asked)))
 

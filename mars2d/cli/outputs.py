@@ -8,7 +8,7 @@ import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from mars2d.cli.arguments import refuse
 from mars2d.core.errors import InputError, Mars2dError, one_line
@@ -18,16 +18,13 @@ from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
 from mars2d.output.figures import figure
 from mars2d.output.films import film
-from mars2d.output.films.footage import Cut, shots
+from mars2d.output.films.footage import Cut, Drawings, shots
 from mars2d.output.raster import require_pygame
 from mars2d.record.rows import Rows
 from mars2d.scenario.examples import experiment_name
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.loop import Interrupted
 from mars2d.world.record import Record
-
-if TYPE_CHECKING:
-    from mars2d.record.frame import Frame
 
 KINDS = {"video": "film", "html": "page"}
 """The words for output files whose argument has another name."""
@@ -79,36 +76,38 @@ def film_speed(scenario: Scenario, speed: float | str | None) -> float:
 
 
 def save_film(
-    frames: Iterable[Frame], count: int, speed: float, arguments: argparse.Namespace
+    record: Record, arguments: argparse.Namespace, drawings: Drawings | None = None
 ) -> None:
-    """Make the requested film of `count` frames, with a progress bar."""
+    """Make the requested film of a record, with a progress bar; drawings: of the run.
+
+    The run may have ended before the part that is filmed does.
+    """
+    speed, end = film_speed(record.scenario, arguments.speed), arguments.end
+    if end is not None and (record.time < end).all():
+        end = None
+    cut = film.cut_of(record, speed, FPS, arguments.start, end)
+    drawn = (drawings or Drawings()).on
+    frames = shots(
+        cut, record.scenario.sampling_time, len(record) - 1, lambda row: drawn(record.frame(row))
+    )
     look: dict[str, Any] = {"size": arguments.size or SIZE, "status": f"{speed:.3g}x"}
-    with progress(count, "frame") as update:
+    with progress(cut.count, "frame") as update:
         film.save_film(frames, arguments.video, fps=FPS, progress=update, **look)
-
-
-def save_film_of(record: Record, arguments: argparse.Namespace) -> None:
-    """Make the requested film of a record, with a progress bar."""
-    speed = film_speed(record.scenario, arguments.speed)
-    cut = film.cut_of(record, speed, FPS, arguments.start, arguments.end)
-    frames = shots(cut, record.scenario.sampling_time, len(record) - 1, record.frame)
-    save_film(frames, cut.count, speed, arguments)
 
 
 # -- a run and its files ---------------------------------------------------------------------------
 
 
 def run_and_save(
-    arguments: argparse.Namespace, run: Callable[[], tuple[Record, Make | None]]
+    arguments: argparse.Namespace, run: Callable[[], Record], drawings: Drawings | None = None
 ) -> tuple[Record, Made, list[Mars2dError]]:
     """Run, and save all requested outputs however the run ends; return files and failures.
 
-    run: returns the record, and a function that makes the film unless it is made from the record.
-    Ctrl-C ends the run and, once its data are saved, the other outputs. If an error ended the run,
-    the data up to then are saved, their place is printed, and the error is raised.
+    run: returns the record. drawings: those of its add-ons, for the film. Ctrl-C ends the run and,
+    once its data are saved, the other outputs. If an error ended the run, the data up to then are
+    saved, their place is printed, and the error is raised.
     """
     ended: Mars2dError | Interrupted | None = None
-    of_run: Make | None = None
     target: Path | None = arguments.record
     saving = "" if target is None else f"the run is being saved in {one_line(target)}"
 
@@ -118,7 +117,7 @@ def run_and_save(
 
     with interrupts(held=saving, rescue=rescue):
         try:
-            record, of_run = run()
+            record = run()
         except (Mars2dError, Interrupted) as error:
             if error.record is None or not len(error.record):
                 raise
@@ -131,7 +130,7 @@ def run_and_save(
             record, arguments.figure, _times_within(arguments.at, record)
         ),
         "html": lambda: record.save_html(arguments.html),
-        "video": of_run or (lambda: save_film_of(record, arguments)),
+        "video": lambda: save_film(record, arguments, drawings),
     }
     others, more = produced(arguments, makers)
     made, troubles = made | others, troubles + more

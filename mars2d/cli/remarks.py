@@ -14,6 +14,8 @@ from typing import Any
 import numpy as np
 
 from mars2d.core.errors import counted
+from mars2d.core.materials import GRAVITY
+from mars2d.core.plane import outside_polygon
 from mars2d.core.usercode import definition
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.robot import Robot
@@ -41,6 +43,15 @@ BOUNDS += ["max_steering", "max_steering_rate"]
 MOST = 0.5
 """The share of cut commands above which a run gets a remark."""
 
+WHIRL = 30.0
+"""Rad/s that no robot on wheels turns at."""
+
+LATE = 5.0
+"""How many times longer than a control step laws may take it without a remark."""
+
+STILL = 1e-3
+"""How far a blow may shift a prop that is said not to move, metres."""
+
 
 def before(experiment: Experiment) -> Iterator[str]:
     """Yield remarks on an experiment that has not been run."""
@@ -53,8 +64,8 @@ def before(experiment: Experiment) -> Iterator[str]:
     yield from _of_laws(filter(None, laws), robots)
 
 
-class Bounds:
-    """Watches a run for commands that the drives' bounds cut off."""
+class Run:
+    """Watches a run for what is legal and hardly meant."""
 
     def __init__(self) -> None:
         self._world: World | None = None
@@ -64,25 +75,83 @@ class Bounds:
         self._world = world
 
     def remarks(self) -> Iterator[str]:
-        """Yield a remark on the robots most of whose commands were cut, or look like degrees."""
-        if self._world is None or not self._world.iteration:
-            return
-        cuts, robots = self._world.simulation.cuts, self._world.scenario.robots
-        first_command = self._world.history.command[0]
-        for i, robot in enumerate(robots):
-            for row, quantity in enumerate(robot.drive.inputs):
-                asked = cuts.asked[row, i] or first_command[row, i]
-                if quantity.unit == "rad/s" and _like_degrees(asked):
-                    yield f"{robot.name} was given {quantity.name} = {asked:g} rad/s{_meant(asked)}"
-        shares = cuts.count / (self._world.iteration + 1)
-        cut = [i for i in np.argsort(-shares, kind="stable") if shares[i] > MOST]
-        if cut:
-            others = counted(len(cut) - 1, "other robot")
-            rest = f", and most of those of {others}" if len(cut) > 1 else ""
-            first = robots[cut[0]]
+        """Yield remarks on the commands, the laws, the props and the end of the run so far."""
+        if self._world is not None and self._world.iteration:
+            yield from _of_commands(self._world)
+            yield from _of_time(self._world)
+            yield from _of_props(self._world)
+            yield from _of_end(self._world)
+
+
+def _of_commands(world: World) -> Iterator[str]:
+    """Yield remarks on robots whose commands look like degrees, or are far beyond their bounds.
+
+    Only wheels turn a robot otherwise where they are cut: other drives go as meant, but slower.
+    """
+    cuts, robots = world.simulation.cuts, world.scenario.robots
+    first_command = world.history.command[0]
+    for i, robot in enumerate(robots):
+        for row, quantity in enumerate(robot.drive.inputs):
+            asked = cuts.asked[row, i] or first_command[row, i]
+            turns = quantity.unit == "rad/s" and robot.drive.wheel_names is not None
+            if turns and (_like_degrees(asked) or abs(asked) >= WHIRL):
+                yield f"{robot.name} was given {quantity.name} = {asked:g} rad/s{_meant(asked)}"
+    shares = cuts.count / (world.iteration + 1)
+    cut = [
+        i for i in np.argsort(-shares, kind="stable")
+        if shares[i] > MOST and robots[i].drive.wheel_names is not None
+    ]  # fmt: skip
+    if cut:
+        others = counted(len(cut) - 1, "other robot")
+        rest = f", and most of those of {others}" if len(cut) > 1 else ""
+        first, asked = robots[cut[0]], cuts.asked[:, cut[0]]
+        names = " and ".join(f"{q.name} [{q.unit}]" for q in first.drive.inputs)
+        yield (
+            f"{shares[cut[0]]:.0%} of the commands of {first.name}{rest} were cut by the drive's "
+            f"bounds, {_bounds(first)}: they mean {names}, and the last was "
+            f"({', '.join(f'{number:.3g}' for number in asked[: len(first.drive.inputs)])})"
+        )
+
+
+def _of_time(world: World) -> Iterator[str]:
+    """Yield a remark on laws that take much longer than the time that they have."""
+    step, mean = world.sampling_time, world.simulation.seconds["laws"] / (world.iteration + 1)
+    if mean > LATE * step:
+        yield (
+            f"the laws took {mean:.2g} s at each control step, {mean / step:.0f} times its "
+            f"{step:g} s: a real robot would get its commands too late"
+        )
+
+
+def _of_props(world: World) -> Iterator[str]:
+    """Yield remarks on props that robots pushed, and that the floor held."""
+    record, robots = world.record, world.scenario.robots
+    a, b = record.contacts["a"], record.contacts["b"]
+    for k, prop in enumerate(world.scenario.props):
+        way = np.ptp(record.prop_pose[:, :2, k], axis=0).max()
+        pushing = [robots[int(i)] for i in np.unique(a[b == len(robots) + k]) if i < len(robots)]
+        held = prop.resting_friction * prop.inertia.mass * GRAVITY
+        push = sum(robot.push for robot in pushing)
+        if pushing and way < STILL and push < held:
+            who = str(pushing[0].name) if len(pushing) == 1 else f"{len(pushing)} robots"
             yield (
-                f"{shares[cut[0]]:.0%} of the commands of {first.name}{rest} were cut by the "
-                f"drive's bounds, {_bounds(first)}"
+                f"{prop.name} did not move: the floor holds {held:.3g} N, and the drives of {who} "
+                f"push {push:.3g} N; lower its ground_friction or mass, or raise their max_force"
+            )
+
+
+def _of_end(world: World) -> Iterator[str]:
+    """Yield a remark on a robot with sensors of distance that has left the workspace."""
+    area, (x, y, _) = world.workspace, world.pose
+    if area is None or world.scenario.on_exit != "stop":
+        return
+    for i in np.flatnonzero(outside_polygon(x, y, np.array(area))):
+        robot = world.scenario.robots[int(i)]
+        ranging = [s.key for s in robot.sensors if any(q.kind == "distance" for q in s.quantities)]
+        if ranging:
+            yield (
+                f"{robot.name} left the workspace, whose edge its {ranging[0]} does not see: "
+                "Scenario(on_exit='wall') makes it a wall"
             )
 
 

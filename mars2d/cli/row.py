@@ -41,13 +41,11 @@ def show_row(arguments: argparse.Namespace, path: Path) -> None:
     view = opens_window(arguments.view)
     arguments.video = arguments.at = None
 
-    def run() -> tuple[Record, None]:
+    def run() -> Record:
         if view:
             speed, look = experiment.scenario.animation.playback_speed, preferences_of(arguments)
-            return show.show_experiment(
-                experiment, speed, preferences=look, log=log, asks=True
-            ), None
-        return run_headless(experiment, log=log).record, None
+            return show.show_experiment(experiment, speed, preferences=look, log=log, asks=True)
+        return run_headless(experiment, log=log).record
 
     log = log_to(arguments.record)
     record, made, troubles = run_and_save(arguments, run)

@@ -12,20 +12,11 @@ from mars2d.core.terminal import tell, warn
 from mars2d.output.raster import require_pygame
 from mars2d.scenario.examples import courses, examples, experiment_name, title_of
 from mars2d.scenario.experiment import Experiment
-from mars2d.scenario.scenario import Scenario
 from mars2d.world.loop import simulate
 from mars2d.world.world import Watcher, World
 
 if TYPE_CHECKING:
     from mars2d.output.formats.mcap import Log
-
-CROSSING = 5.0
-"""How long the quickest robot that a person drives takes from side to side, seconds of the clock,
-unless a speed is given."""
-LEAST = 15.0
-"""How long a game of full length lasts at least, seconds of the clock, unless a speed is given."""
-FASTEST_BY_HAND = 10.0
-"""The highest speed of an experiment in which a person drives, unless a speed is given."""
 
 
 def has_display() -> bool:
@@ -48,20 +39,6 @@ def require_display(otherwise: str) -> None:
     if not has_display():
         require_pygame("a window")
         raise InputError(otherwise)
-
-
-def speed_by_hand(scenario: Scenario, robots: Sequence[int] = ()) -> float:
-    """Return a factor of real time at which a person can drive these robots, or any.
-
-    The quickest of them crosses the arena in `CROSSING` seconds of the clock; all of it takes
-    `LEAST` at least.
-    """
-    xmin, xmax, ymin, ymax = scenario.bounds
-    drives = [scenario.robots[k].drive for k in robots or range(len(scenario.robots))]
-    quickest = max(drive.max_linear_speed for drive in drives)
-    factor = max(xmax - xmin, ymax - ymin) / (CROSSING * quickest)
-    factor = min(factor, scenario.stop_time / LEAST, FASTEST_BY_HAND)
-    return float(f"{factor:.1g}")
 
 
 def run_headless(

@@ -7,6 +7,7 @@ import keyword
 from collections import Counter
 from collections.abc import Callable, Iterable
 from itertools import islice, pairwise
+from types import GeneratorType
 from typing import Any
 
 import numpy as np
@@ -68,7 +69,8 @@ def pose(name: str, value: object) -> tuple[float, float, float]:
     expected = "a pose (x, y, theta) in metres and radians"
     items = items_of(name, value, expected)
     if len(items) not in (2, 3):
-        raise wrong(name, value, expected)
+        commas = "; decimals have a point: 0.5" if len(items) > 3 else ""
+        raise wrong(name, value, expected + commas)
     x, y, theta = _coordinates(name, value, [*items, 0.0][:3], expected)
     return x, y, theta
 
@@ -209,28 +211,54 @@ def unique(name: str, keys: list[str]) -> None:
             raise InputError(f"{name}: two are called {key!r}; give one another name=...")
 
 
+RESULTS = (tuple, list, np.ndarray, GeneratorType)
+"""What laws return: where a function is expected, it was called."""
+
+_OTHERWISE = {
+    ("the world", "robot"): "it is called with the world, for the whole team: rename its parameter "
+    "and take world.robots, or give it to a robot, Robot(controller=...)",
+    ("the robot", "world"): "it is called with a robot: rename its parameter; robot.world is the "
+    "world. The law of a team is a function control(world) of the file",
+}
+"""What to say of laws whose parameter has the other name."""
+
+
 def function(name: str, value: object, *arguments: str) -> object:
     """Check a function of these arguments, which are described in words."""
     count = {1: "one argument", 2: "two arguments"}[len(arguments)]
     words = " and ".join(arguments)
     if not callable(value):
-        raise wrong(name, value, f"a function of {count}, {words}")
+        hint = "; write its name without brackets ()" if isinstance(value, RESULTS) else ""
+        raise wrong(name, value, f"a function of {count}, {words}{hint}")
     try:
-        inspect.signature(value).bind(*arguments)
-    except TypeError:
         given = inspect.signature(value)
-        called = getattr(value, "__name__", type(value).__name__)
-        raise InputError(
-            f"{name} = {called}{given}: expected a function of exactly {count}, {words}"
-        ) from None
     except ValueError:
-        pass  # a built-in without a signature: the first call will show
+        return value  # a built-in without a signature: the first call will show
+    called = f"{name} = {getattr(value, '__name__', type(value).__name__)}{given}"
+    try:
+        parameters = given.bind(*arguments).arguments
+    except TypeError:
+        raise InputError(f"{called}: expected a function of exactly {count}, {words}") from None
+    if (meant := (words, next(iter(parameters)))) in _OTHERWISE:
+        raise InputError(f"{called}: {_OTHERWISE[meant]}")
     return value
 
 
-def identifier(name: str, value: str | None, prefix: str) -> None:
-    """Raise InputError for a part's name that can't follow the `prefix` in the code of a law."""
-    if value is None:
-        return
-    if not value.isidentifier() or value.startswith("_") or keyword.iskeyword(value):
-        raise wrong(name, value, f"letters, digits and _, a letter first, as it follows {prefix}")
+NAME = r"[^\x00-@\[-`{-\u007f][^\x00-/:-@\[-^`{-\u007f]*"
+"""The pattern of letters, digits and _, a letter first, whatever a pattern takes for a letter."""
+
+
+def identifier(prefix: str) -> Check:
+    """Return a check for a part's name, which follows the `prefix` in the code of laws, or None."""
+    expected = f"letters, digits and _, a letter first, as it follows {prefix}"
+
+    @accepts({"type": "string", "pattern": f"^{NAME}$"})
+    def check(name: str, value: object) -> str | None:
+        if value is None:
+            return None
+        known = isinstance(value, str) and value.isidentifier() and not keyword.iskeyword(value)
+        if not known or str(value).startswith("_"):
+            raise wrong(name, value, expected)
+        return str(value)
+
+    return check

@@ -14,6 +14,7 @@ import functools
 import inspect
 import math
 import numbers
+import operator
 import re
 from collections.abc import Callable, Sequence
 from typing import Any, ClassVar, Self, TypeVar, dataclass_transform
@@ -125,7 +126,7 @@ def choice(*, of: Sequence[str], **more: Any) -> Any:
     @accepts({"enum": list(of)})
     def check(name: str, value: object) -> str:
         if not isinstance(value, str) or value not in of:
-            hint = likely(value, of) if isinstance(value, str) else ""
+            hint = instead(value, name) or likely(value, of) if isinstance(value, str) else ""
             raise wrong(name, value, "one of " + ", ".join(map(repr, of)) + hint)
         return value
 
@@ -140,7 +141,7 @@ def flag(**more: Any) -> Any:
 def text(*, optional: bool = False, **more: Any) -> Any:
     """Declare a field that is one line of text, such as a name or a title."""
 
-    @accepts({"type": "string"})
+    @accepts({"type": "string", "pattern": f"^[^{CONTROLS.pattern[1:]}*$"})
     def check(name: str, value: object) -> str | None:
         if optional and value is None:
             return None
@@ -161,13 +162,17 @@ def entry(
     factory: Any = dataclasses.MISSING,
     kw_only: bool = True,
     of: Sequence[str] = (),
+    names: str = "",
 ) -> Any:
-    """Declare a field with its own check, which returns the value to keep; of: all its values."""
+    """Declare a field with its own check, which returns the value to keep; of: all its values.
+
+    names: what the field mentions by name, for example a "robot", a "body" or a "sensor".
+    """
     return dataclasses.field(
         default=default,
         default_factory=factory,
         kw_only=kw_only,
-        metadata={"check": check, "unit": unit, "doc": doc, "of": of},
+        metadata={"check": check, "unit": unit, "doc": doc, "of": of, "names": names},
     )
 
 
@@ -231,16 +236,20 @@ def schema_of(field: dataclasses.Field[Any]) -> Schema:
 class Description:
     """The base of all descriptions. Raises InputError for a wrong, missing or unknown field."""
 
-    twins: ClassVar[dict[str, tuple[str, float]]] = {}
-    """Other names of fields: the field, and how many times the number given it is."""
-
     __dataclass_fields__: ClassVar[dict[str, dataclasses.Field[Any]]]
+
+    _computed: ClassVar[frozenset[str]] = frozenset()
+    """The names of its cached properties."""
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
         _keep_checks(cls)
         dataclasses.dataclass(frozen=True, kw_only=True, repr=False)(cls)
         cls.__init__ = _gated(cls, cls.__init__)  # type: ignore[method-assign]
+        attributes = [each for kind in cls.__mro__ for each in vars(kind).items()]
+        cls._computed = frozenset(
+            name for name, value in attributes if isinstance(value, functools.cached_property)
+        )
 
     def __post_init__(self) -> None:
         for field in dataclasses.fields(self):
@@ -261,31 +270,24 @@ class Description:
         certain = likely(name, known, CERTAIN)
         return certain or instead(name, *kinds) or nearest(name, known, most=40)
 
-    @classmethod
-    def translated(cls, given: dict[str, Any]) -> dict[str, Any]:
-        """Return values by the names of their fields, where some have a twin's name."""
-        twins = cls.twins.keys() & given.keys()
-        if not twins:
-            return given
-        translated = {name: value for name, value in given.items() if name not in twins}
-        for twin in twins:
-            name, times = cls.twins[twin]
-            if name in given:
-                raise InputError(f"{cls.__name__} has both {twin} and {name}: give one of them")
-            translated[name] = times * real(f"{cls.__name__}.{twin}", given[twin])
-        return translated
-
     def replace(self, **changes: Any) -> Self:
         """Return a copy with some fields changed, validated again."""
-        changes = self.translated(changes)
         current = {f.name: getattr(self, f.name) for f in dataclasses.fields(self)}
         return type(self)(**(current | changes))
 
+    def renamed(self, old: str, new: str) -> Self:
+        """Return a copy in which it, and each of its parts, mentions a robot or prop anew."""
+        changes = {}
+        for field in dataclasses.fields(self):
+            known, names = getattr(self, field.name), field.metadata.get("names")
+            value = _renamed(known, old, new, mentions=names in ("robot", "body"))
+            if value is not known:
+                changes[field.name] = value
+        return self.replace(**changes) if changes else self
+
     def __getstate__(self) -> dict[str, Any]:
         """Return the state that is copied and pickled: everything but cached properties."""
-        kind, cached = type(self), functools.cached_property
-        state = self.__dict__.items()
-        return {k: value for k, value in state if not isinstance(getattr(kind, k, None), cached)}
+        return {k: value for k, value in self.__dict__.items() if k not in self._computed}
 
     def __repr__(self) -> str:
         changed = []
@@ -295,6 +297,16 @@ class Description:
             if value != default:
                 changed.append(f"{field.name}={shown(value, 200)}")
         return f"{type(self).__name__}({', '.join(changed)})"
+
+
+def _renamed(value: Any, old: str, new: str, *, mentions: bool) -> Any:
+    """Return a field's value with a new name of a body; mentions: whether words in it are names."""
+    if isinstance(value, Description):
+        return value.renamed(old, new)
+    if isinstance(value, tuple):
+        found = tuple(_renamed(each, old, new, mentions=mentions) for each in value)
+        return value if all(map(operator.is_, found, value)) else found
+    return new if mentions and value == old else value
 
 
 def _keep_checks(cls: type[Description]) -> None:
@@ -321,7 +333,6 @@ def _gated(cls: type, init: Callable[..., None]) -> Callable[..., None]:
     @functools.wraps(init)
     def checked(self: Any, *args: Any, **kwargs: Any) -> None:
         if type(self) is cls:
-            kwargs = cls.translated(kwargs)
             for name in kwargs:
                 if name not in known:
                     raise InputError(f"{cls.__name__} has no field {name!r}{cls.meant(name)}")

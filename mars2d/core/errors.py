@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable
 from typing import Any
 
-CONTROLS = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029]")
+CONTROLS = re.compile(r"[\x00-\x1f\u007f-\x9f\u2028\u2029]")
 """Line breaks and the control characters of terminals."""
 
 UNSEEN = re.compile(
@@ -66,7 +66,7 @@ class UnknownNameError(LawError, AttributeError):
     """A law asked for something that does not exist."""
 
 
-class MissingExtraError(InputError):
+class MissingExtraError(InputError, ImportError):
     """An optional library is not installed; the message contains the pip command."""
 
 

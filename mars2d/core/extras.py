@@ -34,6 +34,8 @@ def extra(name: str, needs: str, otherwise: str = "") -> Iterator[None]:
     """
     try:
         yield
+    except MissingExtraError:
+        raise
     except ImportError:
         hint = f"; {otherwise}" if otherwise else ""
         raise MissingExtraError(f"{needs}: {pip_line(name)}{hint}") from None

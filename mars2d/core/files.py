@@ -165,7 +165,8 @@ def file_beside(path: Path, caller: Path | None, what: str, suffixes: Sequence[s
         for file in (folder / path).parent.iterdir()
         if file.suffix.lower() in suffixes
     }
-    where = ""
-    if beside and caller is not None and not path.is_absolute():
-        where = f" beside {caller.name} or in the current folder"
-    raise InputError(f"{path}: there is no such file{where}{nearest(path, known, 0.6)}")
+    where, near = "", nearest(path, known, 0.6)
+    if not path.is_absolute():
+        where = f" beside {caller.name} or in the current folder" if beside and caller else ""
+        where += "" if near else f"{'' if where else ' in the current folder'}, {Path.cwd()}"
+    raise InputError(f"{path}: there is no such file{where}{near}")

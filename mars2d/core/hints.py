@@ -2,10 +2,19 @@
 
 from __future__ import annotations
 
+import ast
 import builtins
+import inspect
+import linecache
 import sys
 import traceback
+from collections.abc import Iterator
+from contextlib import suppress
 from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
 
 from mars2d.core.errors import InputError, likely
 from mars2d.core.words import instead
@@ -15,22 +24,21 @@ ROOMS = ("mars2d", "mars2d.sensors", "mars2d.addons", "mars2d.bodies", "mars2d.g
 
 ABBREVIATIONS = {"np": "import numpy as np", "plt": "import matplotlib.pyplot as plt"}
 
-_FIXED: list[tuple[type[BaseException], str, str, str]] = [
-    (AttributeError, "has no setter", "",
+_FIXED: list[tuple[type[BaseException], str, str]] = [
+    (AttributeError, "has no setter",
      "it can't be set: a law returns its command, and keeps things in robot.memory"),
-    (TypeError, "'numpy.ndarray' object is not callable", "",
-     "it is an array: write it without the brackets ()"),
-    (TypeError, "object is not callable", "robot.drive(",
-     "a law returns its command, such as `return v, omega`"),
-    (ValueError, "read-only", "",
+    (ValueError, "read-only",
      "a law can't change the world: it returns its command. Calculate with a copy: pose.copy()"),
-    (ValueError, "to unpack", ".pose", "a pose is three numbers: x, y, theta = robot.pose"),
-    (IndexError, "", ".position[", "a position is (x, y); the angle is pose[2]"),
-    (IndexError, "", ".pose[", "a pose is (x, y, theta), from 0 to 2"),
-    (EOFError, "", "input(",
+    (EOFError, "",
      "nobody answers while a simulation runs: make it a parameter of scenario(...)"),
 ]  # fmt: skip
-"""The class of an exception, a part of its text, a part of its line, and the hint."""
+"""The class of an exception, a part of its text, and the hint."""
+
+_PARTS = {
+    "pose": "a pose is three numbers: x, y, theta = robot.pose, or pose[0] to pose[2]",
+    "position": "a position is (x, y); the angle is pose[2]",
+}
+"""What there is in arrays of the views, by their names."""
 
 
 def described(error: BaseException) -> str:
@@ -40,17 +48,78 @@ def described(error: BaseException) -> str:
         return said
     if isinstance(error, ImportError):
         said = said.partition(" (")[0]  # the path of the module helps nobody
+    if "truth value" in said:
+        said = said.partition(". ")[0]  # what numpy advises is not what is meant
     text = f"{name}: {said}" if said else name
-    steps = traceback.extract_tb(error.__traceback__)
-    line = (steps[-1].line or "") if steps else ""
-    for kind, part, code, hint in _FIXED:
-        if isinstance(error, kind) and part in said and code in line:
+    for kind, part, hint in _FIXED:
+        if isinstance(error, kind) and part in said:
             return f"{text}; {hint}"
     if isinstance(error, NameError):
         return text + _of_name(error)
     if isinstance(error, AttributeError):
         return text + likely(error.name, {n for n in dir(error.obj) if not n.startswith("_")})
-    return text + _of_import(error) if isinstance(error, ImportError) else text
+    if isinstance(error, ImportError):
+        return text + _of_import(error)
+    if isinstance(error, FileNotFoundError):
+        beside = "a file beside this one is Path(__file__).with_name('NAME')"
+        return f"{text}; relative names begin in the current folder, {Path.cwd()}; {beside}"
+    if isinstance(error, (TypeError, ValueError, IndexError)):
+        return text + next(filter(None, (_of_value(error, *each) for each in _failed(error))), "")
+    return text
+
+
+def _failed(error: BaseException) -> Iterator[tuple[ast.AST, ast.expr, Any]]:
+    """Yield what an expression that failed was made of, with its value, and what is done with it.
+
+    What stands in it furthest out comes first. Only names, attributes and items are evaluated
+    again: they were evaluated there just before.
+    """
+    frames = [*traceback.walk_tb(error.__traceback__)]
+    steps = traceback.extract_tb(error.__traceback__)
+    if not steps or steps[-1].lineno is None:
+        return
+    line = linecache.getline(steps[-1].filename, steps[-1].lineno).encode()
+    start, end = steps[-1].colno or 0, steps[-1].end_colno
+    whole = "to unpack" in str(error) or steps[-1].end_lineno != steps[-1].lineno
+    code = (line if whole else line[start:end]).decode().strip().removeprefix("el")
+    with suppress(SyntaxError, ValueError):
+        tree = ast.parse(code + " pass" if code.endswith(":") else code)
+        for parent in ast.walk(tree):
+            for node in ast.iter_child_nodes(parent):
+                if isinstance(node, (ast.Name, ast.Attribute, ast.Subscript)):
+                    value = None
+                    if not any(isinstance(each, ast.Call) for each in ast.walk(node)):
+                        frame, asked = frames[-1][0], compile(ast.unparse(node), "", "eval")
+                        with suppress(Exception):
+                            value = eval(asked, frame.f_globals, frame.f_locals)
+                    yield parent, node, value
+
+
+def _of_value(error: BaseException, parent: ast.AST, node: ast.expr, value: Any) -> str:
+    """Return what to write in place of what was done with a value, or ""."""
+    said, what, last = str(error), ast.unparse(node), getattr(node, "attr", "")
+    size = len(value) if hasattr(value, "__len__") and np.shape(value) else 0
+    if "truth value" in said and isinstance(value, np.ndarray) and value.size != 1:
+        if value.dtype.names:
+            return f"; {what} has a row for each: write len({what}) > 0"
+        if isinstance(parent, ast.Compare) and isinstance(parent.ops[0], ast.Eq):
+            sides = f"{ast.unparse(parent.left)}, {ast.unparse(parent.comparators[0])}"
+            return f"; whether they are near says np.linalg.norm(np.subtract({sides})) < 0.01"
+        return f"; {what} has {size} numbers: compare one of them, as {what}[0] < 0.5"
+    if "unpack" in said and last in _PARTS:
+        return f"; {_PARTS[last]}"
+    if isinstance(error, IndexError) and isinstance(parent, ast.Subscript) and parent.value is node:
+        if last in _PARTS and np.ndim(value) == 1:
+            return f"; {_PARTS[last]}"
+        return f"; there are {what}[0] to {what}[{size - 1}]" if size else f"; {what} is empty"
+    if not isinstance(parent, ast.Call) or parent.func is not node:
+        return ""
+    if "not callable" in said and last == "drive":
+        return "; a law returns its command, such as `return v, omega`"
+    if "not callable" in said and isinstance(value, np.ndarray):
+        return "; it is an array: write it without the brackets ()"
+    first = next(iter(inspect.signature(value).parameters)) if inspect.isfunction(value) else ""
+    return f"; a law is given without brackets: {what}" if first in ("robot", "world") else ""
 
 
 def _of_name(error: NameError) -> str:

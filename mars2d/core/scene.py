@@ -49,7 +49,12 @@ WAKE_LINES = ("--", "-.", "-", ":")
 WAKE_MARKERS = (".", "o", "x", "+", "*", "s")
 
 
-@accepts({"type": "string"})
+_WORDS = "|".join("".join(f"[{c}{c.upper()}]" for c in word) for word in NAMED)
+_HEX = "#([0-9A-Fa-f]{3}|[0-9A-Fa-f]{6}|[0-9A-Fa-f]{8})"
+_COLOR = {"type": "string", "pattern": rf"^\s*({_HEX}|{_WORDS})\s*$"}
+
+
+@accepts(_COLOR)
 def color(name: str, value: object) -> str:
     """Return a colour as ``#rrggbb`` or ``#rrggbbaa``; field `name` is for the error message."""
     if isinstance(value, str):
@@ -66,7 +71,7 @@ def color(name: str, value: object) -> str:
     raise InputError(f"{name} = {value!r}: expected a colour, '#rrggbb' or a name{hint}")
 
 
-@accepts({"type": "string"})
+@accepts(_COLOR)
 def optional_color(name: str, value: object) -> str | None:
     """Check a colour, or None."""
     return None if value is None else color(name, value)

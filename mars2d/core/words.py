@@ -5,16 +5,22 @@ from __future__ import annotations
 _PLACE = "x y theta position positon pos xy orientation heading angle start initialpose location"
 _SPEED = "speed maxspeed maxlinearspeed vmax maxv v velocity"
 _TURN = "omega maxomega maxangularspeed w wmax angularspeed maxangularvelocity"
+_TORUS = "workspace=None, and neighbours=... of your own that takes distances modulo the side"
 _COMMAND = "return v, omega: a law returns its command"
 
 _INSTEAD: dict[str, dict[str, str]] = {
     "Robot": {
         _PLACE: "pose=(x, y, theta)",
-        "r size width length": "shape=Polygon([(x, y), ...]), of mars2d.geometry, or diameter=...",
+        "radius r": "diameter=2 * radius",
+        "size width length": "shape=Polygon([(x, y), ...]), of mars2d.geometry, or diameter=...",
         _SPEED: "drive=Unicycle(max_linear_speed=...)",
         _TURN: "drive=Unicycle(max_angular_speed=...)",
         "law control controllaw behaviour behavior policy function": "controller=law",
+        "wheelssemiaxislength semiaxis wheelbase": "drive=Unicycle(wheel_semiaxis=...)",
+        "distancecenterbarycenter": "center_offset=...",
     },
+    "Ball": {"radius r size": "diameter=2 * radius"},
+    "Puck": {"radius r size": "diameter=2 * radius"},
     "Scenario": {
         "n number numrobots agents": "robots=3, or robots=[Robot(...), ...]",
         "dt ts step timestep stepsize period": "sampling_time=...",
@@ -24,7 +30,20 @@ _INSTEAD: dict[str, dict[str, str]] = {
         "obstacle obstacles wall walls map": "addons=[Map([[(x, y), ...], ...])], of mars2d.addons",
         "bounds arena size world field area width": "workspace=[(x, y), ...], the area's corners",
         "sensor sensors": "Robot(sensors=[...])",
+        "initialpose initialposes pose poses starts":
+            "robots=[Robot(pose=(x, y, theta)), ...]; of a matrix P (3, n), "
+            "robots=[Robot(pose=p) for p in P.T]",
+        "robot": 'robots=[Robot(...)]; among options, "robots.*.diameter" is that of all robots',
+        "nonholonomic drive": "Robot(drive=Holonomic()), or Robot(drive=Unicycle())",
+        "periodic wrap torus toroidal boundary": _TORUS,
+        "colors colours basecolors": "animation=Animation(base_colors=[...])",
     },
+    "Animation": {
+        "enable": "speed=1 in mars2d.run(...) for a window; without a speed there is none",
+        "color colour colors colours": "base_colors=[...]",
+        "title": "Scenario(title=...)",
+    },
+    "Scenario.on_exit": {"periodic wrap torus toroidal": _TORUS},
     "Sensor": {
         "distance maxrange reach maxdistance": "range=...",
         "fov angle aperture opening": "field_of_view=...",
@@ -38,6 +57,13 @@ _INSTEAD: dict[str, dict[str, str]] = {
         "dt ts step": "robot.sampling_time",
         "goal target state integral error": "robot.memory: a law keeps things there",
         "stop move setvelocity setspeed setcommand forward turn rotate": _COMMAND,
+    },
+    "a hook": {
+        "onend onfinish onfinished onclose ondone onexit": "on_stop(self, world)",
+        "oninit onbegin onreset onsetup oninitialize": "on_start(self, world)",
+        "onupdate onloop ontick": "on_step(self, world)",
+        "oncollision oncollide ontouch onhit": "on_contact(self, world, contact)",
+        "onrender onplot onpaint": "on_draw(self, world, scene)",
     },
     "a room": {
         "lidar laser laserscanner rangesensor scanner": "RangeFinder, of mars2d.sensors",

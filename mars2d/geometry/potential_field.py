@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property, lru_cache
 from math import fsum, inf
 from typing import Any, Protocol, runtime_checkable
@@ -117,13 +117,31 @@ class Potential(Description):
             away = (ax / d, ay / d) if d > 0 else (0.0, 0.0)
             yield max(d - self.radius, MIN_CLEARANCE), *away
 
-    def force(self, at: Sequence[float] | Float, goal: Sequence[float] | Float) -> Point:
-        """Return the force F = -grad U (Fx, Fy) at (x, y) [m], in m/s: a desired velocity."""
+    def _near_discs(
+        self, x: float, y: float, discs: Iterable[tuple[float, float, float]]
+    ) -> Iterator[tuple[float, float, float]]:
+        """Yield rho and the unit vector away from the centre, for each near disc."""
+        for cx, cy, radius in discs:
+            d = norm(x - cx, y - cy)
+            if 0 < d < self.reach + self.radius + radius:
+                rho = max(d - self.radius - radius, MIN_CLEARANCE)
+                yield rho, (x - cx) / d, (y - cy) / d
+
+    def force(
+        self,
+        at: Sequence[float] | Float,
+        goal: Sequence[float] | Float,
+        discs: Iterable[tuple[float, float, float]] = (),
+    ) -> Point:
+        """Return the force F = -grad U (Fx, Fy) at (x, y) [m], in m/s: a desired velocity.
+
+        discs: (x, y, radius) [m] of what repels like an edge, such as the other robots.
+        """
         (x, y), (gx, gy) = map(float, at), map(float, goal)
         distance = norm(gx - x, gy - y)
         pull = self.attraction * min(1.0, self.far / distance) if distance else 0.0
         fx, fy = [pull * (gx - x)], [pull * (gy - y)]
-        for rho, ux, uy in self._near(x, y):
+        for rho, ux, uy in [*self._near(x, y), *self._near_discs(x, y, discs)]:
             push = self.repulsion * (1 / rho - 1 / self.reach) / (rho * rho)
             fx.append(push * ux)
             fy.append(push * uy)

@@ -70,7 +70,9 @@ class Signal:
     """The names of the curves, where the values are of no single bodies."""
 
 
-def signals(record: Rows, names: Sequence[str], robots: Sequence[str | int] | None) -> list[Signal]:
+def signals(
+    record: Rows, names: Sequence[str | Sequence[str]], robots: Sequence[str | int] | None
+) -> list[Signal]:
     """Return the signals of some column names; a command gives two, one for each part.
 
     robots: names or indices; None: all. Raises InputError for an unknown column or robot, and for
@@ -80,7 +82,8 @@ def signals(record: Rows, names: Sequence[str], robots: Sequence[str | int] | No
     props = range(len(record.scenario.robots), len(record.scenario.bodies))
     return [
         signal
-        for name in names
+        for given in names
+        for name in (given if isinstance(given, (list, tuple)) else [given])
         for signal in _named(record, name, (*which, *props) if name == "kinetic" else which)
     ]
 

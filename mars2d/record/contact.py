@@ -142,6 +142,16 @@ def met(contacts: NDArray[np.void]) -> NDArray[np.bool_]:
     return np.asarray(found & contacts["began"])
 
 
+def met_or_parted(contacts: NDArray[np.void]) -> NDArray[np.bool_]:
+    """Return with which rows (c,) of one control step two bodies came to touch, or parted."""
+    found = met(contacts)
+    pairs = np.stack([contacts["a"], contacts["b"]], axis=-1)
+    for pair in np.unique(pairs, axis=0):
+        mine = np.flatnonzero((pairs == pair).all(axis=1))
+        found[mine[-1]] |= contacts["ended"][mine].all()
+    return found
+
+
 def count_meetings(pieces: Iterable[NDArray[np.void]]) -> int:
     """Return how often two bodies came to touch, in contacts that are given piece by piece."""
     count, before = 0, np.empty(0, dtype=CONTACT)

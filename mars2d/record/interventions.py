@@ -47,6 +47,20 @@ class Pull:
 
 
 @dataclass(frozen=True, slots=True)
+class Push:
+    """A constant force (x, y) [N] acted on a body for a duration [s]; a pull is one of a spring.
+
+    grip: the point of the body at which it acted [m], in its own frame.
+    """
+
+    row: int
+    body: int
+    grip: Point
+    force: Point
+    duration: float
+
+
+@dataclass(frozen=True, slots=True)
 class Steer:
     """A robot was driven by hand from here on, or no longer; its commands are in the record.
 
@@ -77,7 +91,7 @@ class Change:
     given: frozenset[str | None] = field(default=frozenset(), compare=False)
 
 
-Intervention = Place | Pull | Steer | Change
+Intervention = Place | Pull | Push | Steer | Change
 
 Leap = tuple[int, int]
 """A row, and a body that was put elsewhere then: it went no way there from the row before."""
@@ -92,6 +106,12 @@ def leaps_of(done: Iterable[Intervention]) -> tuple[Leap, ...]:
         elif isinstance(each, Change):
             leaps += [(each.row, body) for body, _ in each.moved]
     return tuple(leaps)
+
+
+def pushes_at(done: Iterable[Intervention], time: float, sampling_time: float) -> list[Push]:
+    """Return the pushes that act at a time; both in seconds."""
+    found = (each for each in done if isinstance(each, Push))
+    return [each for each in found if 0 <= time - each.row * sampling_time < each.duration]
 
 
 def to_plain(intervention: Intervention) -> dict[str, Any]:
@@ -130,5 +150,5 @@ def _read(value: Any) -> Any:
 
 
 _KINDS: dict[str, type[Intervention]] = {
-    kind.__name__: kind for kind in (Place, Pull, Steer, Change)
+    kind.__name__: kind for kind in (Place, Pull, Push, Steer, Change)
 }

@@ -27,56 +27,35 @@ KEPT = frozenset({np.dtype(bool), np.dtype(float)})
 """The types in which readings are kept; a 3 is kept as 3.0, since 3.5 may follow."""
 
 
+def _column(name: str) -> Any:
+    """Return a property: the rows so far of a column."""
+    return property(lambda history: history._recorder.column(name))
+
+
 class History:
     """The record so far, as views: time (k,), pose (k, 3, n), command (k, m, n) and so on."""
 
     def __init__(self, recorder: Recorder) -> None:
         self._recorder = recorder
 
-    @property
-    def time(self) -> Float:
-        """The times of the rows, (k,) seconds."""
-        return self._recorder.column("time")
-
-    @property
-    def pose(self) -> Float:
-        """The poses of the robots, (k, 3, n)."""
-        return self._recorder.column("pose")
-
-    @property
-    def command(self) -> Float:
-        """The commands issued, (k, m, n)."""
-        return self._recorder.column("command")
-
-    @property
-    def command_time(self) -> Float:
-        """When each command takes effect, (k,) seconds."""
-        return self._recorder.column("command_time")
-
-    @property
-    def prop_pose(self) -> Float:
-        """The poses of the props, (k, 3, p)."""
-        return self._recorder.column("prop_pose")
-
-    @property
-    def effort(self) -> Float:
-        """The drives' efforts, (k, n); see `World.effort`."""
-        return self._recorder.column("effort")
-
-    @property
-    def velocity(self) -> Float:
-        """The velocities of the robots, (k, 3, n); see `World.velocity`."""
-        return self._recorder.column("velocity")
-
-    @property
-    def prop_velocity(self) -> Float:
-        """The velocities of the props, (k, 3, p)."""
-        return self._recorder.column("prop_velocity")
-
-    @property
-    def work(self) -> Float:
-        """The work since the start, (k, 6) J; see `World.energy`."""
-        return self._recorder.column("work")
+    time: Float = _column("time")
+    """The times of the rows, (k,) seconds."""
+    pose: Float = _column("pose")
+    """The poses of the robots, (k, 3, n)."""
+    command: Float = _column("command")
+    """The commands issued, (k, m, n)."""
+    command_time: Float = _column("command_time")
+    """When each command takes effect, (k,) seconds."""
+    prop_pose: Float = _column("prop_pose")
+    """The poses of the props, (k, 3, p)."""
+    effort: Float = _column("effort")
+    """The drives' efforts, (k, n); see `World.effort`."""
+    velocity: Float = _column("velocity")
+    """The velocities of the robots, (k, 3, n); see `World.velocity`."""
+    prop_velocity: Float = _column("prop_velocity")
+    """The velocities of the props, (k, 3, p)."""
+    work: Float = _column("work")
+    """The work since the start, (k, 6) J; see `World.energy`."""
 
     def __len__(self) -> int:
         return self._recorder.rows

@@ -7,18 +7,19 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, Self
+from typing import Any, NoReturn, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.arrays import sealed
-from mars2d.core.errors import counted
+from mars2d.core.errors import InputError, counted, nearest
 from mars2d.core.scene import Scene
 from mars2d.record.columns import Texts, blocks
 from mars2d.record.contact import CONTACT, count_meetings, pair_forces, rows_of
 from mars2d.record.energy import Energy, Momentum, energy_of, momentum_of
 from mars2d.record.frame import Frame
+from mars2d.record.impacts import impacts
 from mars2d.record.interventions import Change, Intervention, Leap, leaps_of
 from mars2d.record.message import MESSAGE, in_flight
 from mars2d.scenario.scenario import Scenario
@@ -30,6 +31,14 @@ COLUMNS = (
     "work",
 )  # fmt: skip
 """The columns of every record, with a row for each control step."""
+
+
+class _BySensor(dict[str, Any]):
+    """A dict by the names of the sensors that were recorded; an InputError for others."""
+
+    def __missing__(self, name: str) -> NoReturn:
+        known = nearest(name, self, most=30) if self else "; none was recorded"
+        raise InputError(f"the record has no sensor {name!r}{known}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,7 +93,8 @@ class Rows:
         for name in (*COLUMNS, "contacts", "messages"):
             object.__setattr__(self, name, sealed(getattr(self, name)))
         sensors = {name: sealed(values) for name, values in self.sensors.items()}
-        object.__setattr__(self, "sensors", sensors)
+        object.__setattr__(self, "sensors", _BySensor(sensors))
+        object.__setattr__(self, "sensor_robots", _BySensor(self.sensor_robots))
 
     def __len__(self) -> int:
         return len(self.time)
@@ -209,6 +219,10 @@ class Rows:
     def contact_rows(self) -> NDArray[np.intp]:
         """The row at the end of each contact's control step, (c,); see `rows_of`."""
         return rows_of(self.contacts, self.time, self.scenario.sampling_time)
+
+    def impacts(self, row: int | None = None) -> NDArray[np.void]:
+        """Return what each touch did, dtype IMPACT; see `mars2d.record.impacts.impacts`."""
+        return impacts(self, row)
 
     @cached_property
     def pair_forces(self) -> NDArray[np.void]:

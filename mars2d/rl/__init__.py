@@ -9,7 +9,8 @@ The name says which module gymnasium has to import first; importing it registers
 from mars2d.rl.environment import Environment
 from mars2d.rl.parallel import ParallelEnvironment
 from mars2d.rl.registration import register
+from mars2d.rl.vector import VectorEnvironment
 
-__all__ = ["Environment", "ParallelEnvironment"]
+__all__ = ["Environment", "ParallelEnvironment", "VectorEnvironment"]
 
 register()

@@ -10,18 +10,13 @@ from numpy.typing import NDArray
 
 from mars2d.core.extras import extra
 from mars2d.rl.episode import Episode, Law, Reward, Source
-from mars2d.rl.screen import MODES, Screen
-from mars2d.world.record import Record
-from mars2d.world.world import World
+from mars2d.rl.screen import MODES, Live, Screen
 
 with extra("rl", "environments need gymnasium"):
     import gymnasium
     from gymnasium.spaces import Box
 
 Row = NDArray[np.float32]
-
-SEEDS = 2**31
-"""Episodes without a seed of their own draw one below this."""
 
 
 def observation_space(episode: Episode, k: int) -> Box:
@@ -35,7 +30,7 @@ def action_space(episode: Episode, k: int) -> Box:
     return Box(-1.0, 1.0, (len(episode.actions[k].low),), np.float32)
 
 
-class Environment(gymnasium.Env[Row, Row]):
+class Environment(Live, gymnasium.Env[Row, Row]):
     """One robot of an experiment learns, and laws drive the others.
 
     >>> environment = Environment("corner_game", "pursuer")
@@ -87,16 +82,6 @@ class Environment(gymnasium.Env[Row, Row]):
         self._learner = self._episode.learners[0]
 
     @property
-    def world(self) -> World:
-        """The live world."""
-        return self._episode.world
-
-    @property
-    def record(self) -> Record:
-        """The record of the present episode. Raises InputError where none is kept."""
-        return self._episode.record
-
-    @property
     def policy_metadata(self) -> str:
         """The text that a policy's ONNX file needs as its metadata ``mars2d``: the spaces."""
         return self._episode.metadata_of(0)
@@ -112,7 +97,7 @@ class Environment(gymnasium.Env[Row, Row]):
         seed: of all that is random; None: a new one from the generator that was seeded last.
         """
         super().reset(seed=seed)
-        self._episode.start(int(self.np_random.integers(SEEDS)) if seed is None else seed)
+        self._episode.start(seed)
         self._screen.follow(self.world)
         return self._episode.observed(0), {}
 
@@ -123,16 +108,15 @@ class Environment(gymnasium.Env[Row, Row]):
         it has. Raises InputError for an action of another shape or that is not finite, and after
         the end.
         """
+        self._episode.step(self.wanted(action))
+        return self._results()
+
+    def wanted(self, action: Any) -> dict[int, tuple[float, ...]]:
+        """Return the learner's command, by its index. Raises InputError as `step` does."""
+        return {self._learner: self._episode.command(0, action)}
+
+    def _results(self) -> tuple[Row, float, bool, bool, dict[str, Any]]:
         episode = self._episode
-        episode.step({self._learner: episode.command(0, action)})
         reward = episode.reward(0)
         self._screen.follow(episode.world)
         return episode.observed(0), reward, *episode.ended(0), episode.over
-
-    def render(self) -> Any:
-        """Return the picture (height, width, 3) for "rgb_array"; show it for "human"."""
-        return self._screen.render(self.world)
-
-    def close(self) -> None:
-        """Close the window."""
-        self._screen.close()

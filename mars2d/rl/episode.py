@@ -31,6 +31,10 @@ Reward = Callable[[World, RobotView], float]
 """Called with the world and a learner after each step; returns the reward of that step."""
 
 
+SEEDS = 2**31
+"""Episodes without a seed of their own draw one below this."""
+
+
 class Episode:
     """A world that starts again with each `start`, and the robots in it that learn.
 
@@ -53,11 +57,10 @@ class Episode:
         there.
         """
         self._source, self._options = source, dict(options or {})
-        opened = open_experiment(source, self._options, seed=0)
+        opened = open_experiment(source, self._options)
         self.experiment = str(source) if isinstance(source, (str, Path)) else ""
         self._draws = "seed" not in self._options and _takes_seed(opened.source.function)
-        if not self._draws:  # without a seed its `random_starts` are not drawn yet: each reset does
-            opened = open_experiment(source, self._options)
+        self._random = np.random.default_rng()
         scenario = opened.scenario
         self.learners = (
             tuple(range(len(scenario.robots)))
@@ -112,8 +115,15 @@ class Episode:
         ]
         return scenario.replace(robots=robots)
 
-    def start(self, seed: int) -> None:
-        """Start again: all random numbers, also those of starts, are drawn from the seed."""
+    def start(self, seed: int | None) -> None:
+        """Start again: all random numbers, also those of starts, are drawn from the seed.
+
+        None: a new one, from the generator that was seeded last.
+        """
+        if seed is None:
+            seed = int(self._random.integers(SEEDS))
+        else:
+            self._random = np.random.default_rng(seed)
         scenario = None
         if self._draws:
             scenario = self._cast(open_experiment(self._source, self._options, seed=seed).scenario)
@@ -126,12 +136,16 @@ class Episode:
 
     def step(self, commands: Mapping[int, tuple[float, ...]]) -> None:
         """Do one control step, and let add-ons and sensors see the instant after it."""
-        world = self.world
-        if world.over:
-            raise InputError(f"the episode is over: {world.over_message}; reset() begins another")
-        every = len(commands) == len(world.robots)
+        every = len(commands) == len(self.world.robots)
         alike = every and len({*map(len, commands.values())}) == 1
-        world.step(np.array([commands[i] for i in range(len(commands))]).T if alike else commands)
+        self.world.step(
+            np.array([commands[i] for i in range(len(commands))]).T if alike else commands
+        )
+        self.settle()
+
+    def settle(self) -> None:
+        """Let add-ons and sensors see the instant after a step, and end the episode if need be."""
+        world = self.world
         world.observe()
         held = world.operator.held
         if held and not world.over and all(robot in held for robot in self.learners):
@@ -174,8 +188,13 @@ class Episode:
     def command(self, k: int, action: Any) -> tuple[float, ...]:
         """Return learner k's command: an action of -1 is the drive's least one, 1 the largest.
 
-        Actions beyond are clipped. Raises InputError unless it is a finite number for each input.
+        Actions beyond are clipped. Raises InputError unless it is a finite number for each input,
+        and when the episode is over.
         """
+        if self.world.over:
+            raise InputError(
+                f"the episode is over: {self.world.over_message}; reset() begins another"
+            )
         try:
             values = np.asarray(action, dtype=float)
         except (TypeError, ValueError):

@@ -10,11 +10,9 @@ from numpy.typing import NDArray
 
 from mars2d.core.errors import InputError, nearest, shown
 from mars2d.core.extras import extra
-from mars2d.rl.environment import SEEDS, action_space, observation_space
+from mars2d.rl.environment import action_space, observation_space
 from mars2d.rl.episode import Episode, Law, Reward, Source
-from mars2d.rl.screen import MODES, Screen
-from mars2d.world.record import Record
-from mars2d.world.world import World
+from mars2d.rl.screen import MODES, Live, Screen
 
 with extra("rl", "environments of several learners need pettingzoo"):
     from gymnasium.spaces import Box
@@ -23,7 +21,7 @@ with extra("rl", "environments of several learners need pettingzoo"):
 Row = NDArray[np.float32]
 
 
-class ParallelEnvironment(ParallelEnv[str, Row, Row]):
+class ParallelEnvironment(Live, ParallelEnv[str, Row, Row]):
     """Several robots of an experiment learn at the same time, and laws drive the others.
 
     >>> environment = ParallelEnvironment("corner_game")
@@ -62,7 +60,6 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
         count = range(len(episode.names))
         self.observation_spaces = {episode.names[k]: observation_space(episode, k) for k in count}
         self.action_spaces = {episode.names[k]: action_space(episode, k) for k in count}
-        self._random = np.random.default_rng()
 
     def observation_space(self, agent: str) -> Box:
         """Return the space of an agent's observations; always the same object."""
@@ -78,16 +75,6 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
             raise InputError(f"ParallelEnvironment: there is no learner {shown(agent)}{hint}")
         return self._places[agent]
 
-    @property
-    def world(self) -> World:
-        """The live world."""
-        return self._episode.world
-
-    @property
-    def record(self) -> Record:
-        """The record of the present episode. Raises InputError where none is kept."""
-        return self._episode.record
-
     def policy_metadata(self, agent: str) -> str:
         """Return the text that an ONNX file of this agent's policy needs as metadata ``mars2d``."""
         return self._episode.metadata_of(self._place(agent))
@@ -98,9 +85,7 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
         options: dict[str, Any] | None = None,  # noqa: ARG002
     ) -> tuple[dict[str, Row], dict[str, dict[str, Any]]]:
         """Begin an episode; return each agent's observation, and empty dicts."""
-        if seed is not None:
-            self._random = np.random.default_rng(seed)
-        self._episode.start(int(self._random.integers(SEEDS)) if seed is None else seed)
+        self._episode.start(seed)
         self.agents = [*self.possible_agents]
         self._screen.follow(self.world)
         seen = {name: self._episode.observed(k) for k, name in enumerate(self.agents)}
@@ -142,11 +127,3 @@ class ParallelEnvironment(ParallelEnv[str, Row, Row]):
             {agent: truncated for agent, (_, truncated) in ended.items()},
             {agent: dict(episode.over) for agent in agents},
         )
-
-    def render(self) -> Any:
-        """Return the picture (height, width, 3) for "rgb_array"; show it for "human"."""
-        return self._screen.render(self.world)
-
-    def close(self) -> None:
-        """Close the window."""
-        self._screen.close()

@@ -17,4 +17,5 @@ def register() -> None:
     """Make the environments known to gymnasium; again does nothing."""
     for name, function in IDS.items():
         if name not in gymnasium.registry:
-            gymnasium.register(id=name, entry_point=f"mars2d.rl.tasks:{function}")
+            task = f"mars2d.rl.tasks:{function}"
+            gymnasium.register(id=name, entry_point=task, vector_entry_point=task)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +11,8 @@ from mars2d.core.description import wrong
 from mars2d.core.errors import likely
 from mars2d.output.raster import require_pygame
 from mars2d.record.frame import Frame
+from mars2d.rl.episode import Episode
+from mars2d.world.record import Record
 from mars2d.world.world import World
 
 if TYPE_CHECKING:
@@ -70,3 +72,28 @@ class Screen:
         if self._window is not None:
             self._pygame.display.quit()
             self._window = None
+
+
+class Live:
+    """What environments of one episode have in common: its world, its record and its picture."""
+
+    _episode: Episode
+    _screen: Screen
+
+    @property
+    def world(self) -> World:
+        """The live world."""
+        return self._episode.world
+
+    @property
+    def record(self) -> Record:
+        """The record of the present episode. Raises InputError where none is kept."""
+        return self._episode.record
+
+    def render(self) -> Any:
+        """Return the picture (height, width, 3) for "rgb_array"; show it for "human"."""
+        return self._screen.render(self.world)
+
+    def close(self) -> None:
+        """Close the window."""
+        self._screen.close()

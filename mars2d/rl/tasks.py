@@ -1,6 +1,7 @@
 """The environments that are registered with gymnasium: pursuit, push, sumo and coverage.
 
-Each is a function that makes an `Environment`; more arguments are passed on to it.
+Each is a function that makes an `Environment`, or with ``num_envs`` a `VectorEnvironment`; more
+arguments are passed on to it.
 """
 
 from __future__ import annotations
@@ -12,11 +13,18 @@ from mars2d.addons import Voronoi
 from mars2d.bodies import Box, Holonomic
 from mars2d.core.plane import Outline
 from mars2d.rl.environment import Environment
+from mars2d.rl.episode import Source
+from mars2d.rl.vector import VectorEnvironment
 from mars2d.scenario.random_starts import RandomStarts
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.views import RobotView
 from mars2d.world.world import World
+
+
+def _made(experiment: Source, robot: str | int, **given: Any) -> Environment | VectorEnvironment:
+    kind = VectorEnvironment if "num_envs" in given else Environment
+    return kind(experiment, robot, **given)
 
 
 def _rectangle(left: float, right: float, low: float, high: float) -> Outline:
@@ -33,10 +41,10 @@ def _gain(robot: RobotView, now: float) -> float:
 def _nearer(world: World, robot: RobotView) -> float:
     """Return the metres that a pursuer came nearer in the last step; 10 more for a capture."""
     x, y = world.pose[:2, 0] - world.pose[:2, 1]
-    return _gain(robot, hypot(x, y)) + 10 * len(world.addons.game.captures)
+    return _gain(robot, hypot(x, y)) + 10 * len(world.addons.game.results)
 
 
-def pursuit(**given: Any) -> Environment:
+def pursuit(**given: Any) -> Environment | VectorEnvironment:
     """Return the game `corner_game`, in which the pursuer learns, 1.2 times as fast as the evader.
 
     Observation (6,), action (vx, vy), 60 s. Reward: the metres that it comes nearer, 10 for the
@@ -45,7 +53,7 @@ def pursuit(**given: Any) -> Environment:
     apart = RandomStarts(area=_rectangle(-4, 4, -4, 4), least_distance=4, heading=0)
     drawn = {"seed": 0, "random_starts": [apart]}  # quicker than by the example's function
     options = {"stop_time": 60.0, "mu": 1.2, **drawn, **given.pop("options", {})}
-    return Environment("corner_game", "pursuer", **{"reward": _nearer, "options": options, **given})
+    return _made("corner_game", "pursuer", **{"reward": _nearer, "options": options, **given})
 
 
 GOAL = (1.5, 0.0)
@@ -64,7 +72,7 @@ def _to_the_goal(world: World, robot: RobotView) -> float:
     return _gain(robot, left + 0.1 * hypot(x - u, y - v)) + 10 * (left < NEAR)
 
 
-def push(**given: Any) -> Environment:
+def push(**given: Any) -> Environment | VectorEnvironment:
     """Return an environment in which a robot pushes a box to a goal on its right, within 30 s.
 
     Both start at random places, the robot on the left. Observation (8,), action (vx, vy). Reward:
@@ -83,7 +91,7 @@ def push(**given: Any) -> Environment:
         on_exit="wall",
         stop_time=30.0,
     )
-    return Environment(scenario, **{"reward": _to_the_goal, **given})
+    return _made(scenario, 0, **{"reward": _to_the_goal, **given})
 
 
 def _shoving(world: World, robot: RobotView) -> float:
@@ -96,7 +104,7 @@ def _shoving(world: World, robot: RobotView) -> float:
     return _gain(robot, 0.5 * hypot(u - x, v - y) - hypot(u, v)) + result
 
 
-def sumo(**given: Any) -> Environment:
+def sumo(**given: Any) -> Environment | VectorEnvironment:
     """Return the example `sumo`, in which red learns against the law `dodger`, for 20 s.
 
     Both start at random places, and decide every 0.1 s. Observation (8,), action (v, omega).
@@ -105,7 +113,7 @@ def sumo(**given: Any) -> Environment:
     """
     inside = RandomStarts(area=_rectangle(-0.9, 0.9, -0.9, 0.9), least_distance=0.8)
     options = {"sampling_time": 0.1, "random_starts": [inside], **given.pop("options", {})}
-    return Environment("sumo", "red", **{"reward": _shoving, "options": options, **given})
+    return _made("sumo", "red", **{"reward": _shoving, "options": options, **given})
 
 
 def _covering(world: World, robot: RobotView) -> float:
@@ -113,7 +121,7 @@ def _covering(world: World, robot: RobotView) -> float:
     return _gain(robot, world.addons.voronoi.now.cost)
 
 
-def coverage(**given: Any) -> Environment:
+def coverage(**given: Any) -> Environment | VectorEnvironment:
     """Return an environment in which a robot joins four that stand in a square, for 20 s.
 
     All starts are random. Observation (12,), action (vx, vy). Reward: by how much the cost H of
@@ -130,4 +138,4 @@ def coverage(**given: Any) -> Environment:
         stop_time=20.0,
         addons=[Voronoi()],
     )
-    return Environment(scenario, 0, **{"reward": _covering, **given})
+    return _made(scenario, 0, **{"reward": _covering, **given})

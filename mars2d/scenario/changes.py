@@ -10,12 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.arithmetic import norm
 from mars2d.core.description import Description
 from mars2d.core.errors import InputError, counted
 from mars2d.core.usercode import name_of
 from mars2d.scenario.scenario import Scenario
-from mars2d.scenario.starts import check_in_workspace, check_off_walls, cut_by, depth
+from mars2d.scenario.starts import faults
 
 Float = NDArray[np.float64]
 Same = Callable[[Any, Any], bool]
@@ -26,7 +25,7 @@ MECHANICAL = frozenset(
 )
 """Fields of bodies that may change, and with which the engine starts again."""
 
-WHOLE = frozenset({"title", "workspace", "on_exit", "stop_time", "animation"})
+WHOLE = frozenset({"title", "workspace", "on_exit", "stop_time", "stop_on", "animation"})
 """Fields of a scenario that may change while its world runs, each as a whole."""
 
 PARTS = {
@@ -147,29 +146,16 @@ def obstruction(scenario: Scenario, poses: Float, body: int) -> str:
         rigid._replace(pose=tuple(pose))
         for rigid, pose in zip(scenario.bodies, poses.T.tolist(), strict=True)
     ]
-    here, overlap = bodies[body], scenario.max_overlap
-    area = None if scenario.on_exit == "ignore" else scenario.workspace
-    reason = "be outside of the workspace"
-    try:
-        if area and body < len(scenario.robots):
-            check_in_workspace([here], area)
-        reason = "be in the workspace's wall"
-        if area and scenario.on_exit == "wall" and scenario.physics != "ideal":
-            check_off_walls([here], area, overlap)
-    except InputError:
-        return reason
-    if scenario.physics == "ideal":
+    fault = next(faults(scenario, bodies, body), None)
+    if fault is None:
         return ""
-    for k in cut_by(here, scenario.obstacles, overlap):
-        return f"be in obstacle {k}"
-    (cx, cy), radius = here.bound
-    for k, other in enumerate(bodies):
-        (x, y), reach = other.bound
-        if k == body or norm(x - cx, y - cy) >= reach + radius:
-            continue
-        if (min(k, body), max(k, body)) not in scenario.joined and depth(here, other, overlap):
-            return f"overlap {other.name}"
-    return ""
+    if fault.kind == "obstacle":
+        return f"be in obstacle {fault.other}"
+    if fault.kind == "overlap":
+        return f"overlap {bodies[fault.other if fault.body == body else fault.body].name}"
+    return (
+        "be outside of the workspace" if fault.kind == "outside" else "be in the workspace's wall"
+    )
 
 
 def alike(first: Any, second: Any) -> bool:

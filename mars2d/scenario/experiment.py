@@ -264,6 +264,8 @@ def _opened(
     try:
         scenario, function = _scenario_of(module, options, seed)
         own, check = getattr(module, "control", None), getattr(module, "checks", None)
+        if any(robot.controller is own for robot in scenario.robots):
+            own = None  # the law of robots is not that of their team
         if own is not None:
             checks.function("control", own, "the world")
         if check is not None:
@@ -325,7 +327,7 @@ def load_law(
         raise wrong("load_law(path)", path, "the name of a law's file, such as 'my_law.py'")
     caller = Path(sys._getframe(1).f_code.co_filename)
     file = file_beside(Path(path), caller, "a law", [".py", SUFFIX])
-    return law_in(file, name, given=(arguments, values))
+    return law_in(file, name, "the robot or the world", (arguments, values))
 
 
 def _find(source: str | Path) -> Path:

@@ -6,7 +6,7 @@ ends.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from math import isfinite
 
 import numpy as np
@@ -19,6 +19,7 @@ from mars2d.bodies.rigid import Rigid
 from mars2d.core.arithmetic import norm
 from mars2d.core.description import wrong
 from mars2d.core.errors import InputError, nearest
+from mars2d.core.materials import GRAVITY
 from mars2d.geometry.shapes import Disc, Shape
 
 MASS_RATIO = 10.0
@@ -56,8 +57,14 @@ def check_centred(name: str, shape: Shape) -> None:
         )
 
 
-def check_bodies(bodies: Sequence[Rigid], max_overlap: float) -> None:
-    """Refuse bodies that contacts can't hold; max_overlap: metres."""
+def check_bodies(
+    bodies: Sequence[Rigid], max_overlap: float, floors: Mapping[str, float], push: float
+) -> None:
+    """Refuse bodies that contacts can't hold.
+
+    max_overlap: metres. floors: the friction that holds each prop on the floor, by its name. push:
+    of all drives together, newtons.
+    """
     for body in bodies:
         _check_mass(body)
         _check_motion(body, min(MAX_SPEED, max_overlap / MIN_CROSSING))
@@ -65,11 +72,16 @@ def check_bodies(bodies: Sequence[Rigid], max_overlap: float) -> None:
     heaviest = max(bodies, key=lambda body: body.inertia.mass)
     least, most = lightest.inertia.mass, heaviest.inertia.mass
     if most > MASS_RATIO * least * (1 + 1e-12):
+        allowed = MASS_RATIO * least
+        slide = push / (allowed * GRAVITY)
+        held = floors.get(heaviest.name, 0.0) > slide
+        hint = f"; with {allowed:.3g} kg the drives, {push:.3g} N, push it on a ground_friction"
         raise InputError(
             f"{heaviest.kind}.mass: {heaviest.name} has {most:g} kg and {lightest.name} {least:g} "
             f"kg; contacts hold a ratio of at most {MASS_RATIO:g}: set the mass of {heaviest.name} "
-            f"to {MASS_RATIO * least:.3g} kg or less, or that of {lightest.name} to "
+            f"to {allowed:.3g} kg or less, or that of {lightest.name} to "
             f"{most / MASS_RATIO:.3g} kg or more"
+            + (f"{hint} of less than {slide:.2g} only" if held else "")
         )
     thinnest = min(bodies, key=lambda body: body.shape.thickness)
     largest = max(bodies, key=lambda body: body.shape.bound[1])

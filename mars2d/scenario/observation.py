@@ -212,7 +212,8 @@ def _look(view: Any) -> Callable[[str], list[float]]:
     def seen(place: list[float], count: int = 4) -> list[float]:
         """Return a position in the frame of the commands [m], and perhaps cos and sin."""
         dx, dy = place[0] - x, place[1] - y
-        return [c * dx + s * dy, c * dy - s * dx, *cosine_sine(place[2] - turn)][:count]
+        there = [c * dx + s * dy, c * dy - s * dx]
+        return there if count == 2 else [*there, *cosine_sine(place[2] - turn)]
 
     def look(name: str) -> list[float]:
         if name == "pose":

@@ -68,7 +68,7 @@ def _replaced(target: Any, options: Mapping[str, Any], path: str) -> Any:
     if not isinstance(target, Description):
         raise InputError(f"there is no option {option!r}: {shown(target)} has no fields")
     for name in inside:
-        if name not in target.__dataclass_fields__ and name not in target.twins:
+        if name not in target.__dataclass_fields__:
             raise InputError(
                 f"there is no option {path + name!r}: {type(target).__name__} has "
                 f"no field {name!r}{target.meant(name)}"

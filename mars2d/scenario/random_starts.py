@@ -58,6 +58,7 @@ class RandomStarts(Description):
         check=checks.names("names of robots and props, such as ['red', 'box0']", 0),
         kw_only=False,
         doc="the names of the robots and props; empty: all robots",
+        names="body",
     )
     area: Outline | None = entry(
         default=None, check=checks.optional(checks.outline, 3), unit="m",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import cached_property
 from math import inf
-from typing import Any, ClassVar, Self
+from typing import Any, Self
 
 from mars2d.bodies.drives.base import Drive
 from mars2d.bodies.drives.unicycle import Unicycle
@@ -52,7 +52,7 @@ class Robot(Description):
         low=1e-3,
         high=1e3,
         unit="m",
-        doc="diameter of the chassis, a disc; or give its radius",
+        doc="diameter of the chassis, a disc",
     )
     shape: Shape | None = entry(
         default=None, check=_shape,
@@ -111,14 +111,9 @@ class Robot(Description):
         """Return the sensor with a name; None in a loaded record for sensors of the user's own."""
         return next((sensor for sensor in self.sensors if sensor.key == key), None)
 
-    twins: ClassVar[dict[str, tuple[str, float]]] = {"radius": ("diameter", 2.0)}
-
     @property
     def radius(self) -> float:
-        """Half the diameter of a disc, else the radius of a circle around the shape, metres.
-
-        May be given instead of the diameter.
-        """
+        """Half the diameter of a disc, else the radius of a circle around the shape, metres."""
         return self.diameter / 2 if self.shape is None else self.shape.bound[1]
 
     @property

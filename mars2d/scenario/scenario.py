@@ -30,6 +30,7 @@ from mars2d.scenario.material_pair import MaterialPair, check_once
 from mars2d.scenario.neighbours import Everyone, Neighbourhood, neighbourhood
 from mars2d.scenario.random_starts import RandomStarts, Room, poses_of, room_of
 from mars2d.scenario.robot import Robot
+from mars2d.scenario.stop_on import CONTACT, Pairs, bodies_named, stop_on
 from mars2d.scenario.team_colors import team_colors
 
 PHYSICS = ("contact", "stop", "ideal")
@@ -111,6 +112,11 @@ class Scenario(Description):
         unit="s",
         doc="the longest duration; the last step is the last multiple of the sampling time",
     )
+    stop_on: str | Pairs | None = entry(
+        default=None, check=stop_on,
+        doc="touches that end the experiment: 'contact' for any, or pairs of names of bodies, of "
+        "a game's roles, or 'wall'",
+    )  # fmt: skip
     command_delay: float = number(
         default=0.0, low=0, high=1e6, unit="s", doc="from a command's issue to its effect"
     )
@@ -185,9 +191,11 @@ class Scenario(Description):
         self.neighbours.check_size(len(self.robots))
         self._check_bodies()
         if self.random_starts:
-            self._start_at_random(self._room, 0)  # it always has poses
+            vars(self).update(self._placed(0))  # it always has poses
         self._check_joints()
-        self._check_starts()
+        for fault in starts.faults(self, self.bodies):
+            raise InputError(fault.told(self))
+        self.ends_by(0, 0)
 
     def _circle_of_robots(self, count: int) -> tuple[Robot, ...]:
         """Place robots round a circle, facing its centre, as MARS does without an Initial_pose."""
@@ -211,7 +219,9 @@ class Scenario(Description):
                 shape, _, _ = prop.shape, prop.inertia, prop.surface
             where = f"{type(prop).__name__}.shape of {prop.name}"
             limits.check_centred(where, known_shape(where, shape))
-        limits.check_bodies(self.bodies, self.max_overlap)
+        floors = {str(prop.name): prop.resting_friction for prop in self.props}
+        push = sum(robot.push for robot in self.robots)
+        limits.check_bodies(self.bodies, self.max_overlap, floors, push)
         drives = [robot.drive for robot in self.robots]
         limits.check_forces(self.bodies, drives, self.max_overlap)
 
@@ -240,8 +250,7 @@ class Scenario(Description):
         if not self.random_starts:
             return self
         found = copy.copy(self)  # whatever was checked holds for these starts as well
-        found._start_at_random(self._room, seed)
-        object.__setattr__(found, "random_starts", ())
+        vars(found).update(self._placed(seed), random_starts=())
         return found
 
     def _repr_svg_(self) -> str:
@@ -262,27 +271,23 @@ class Scenario(Description):
     def _room(self) -> Room:
         return room_of(self)
 
-    def _start_at_random(self, room: Room, seed: int) -> None:
-        """Give the bodies of `random_starts` the poses that follow from the seed."""
-        poses = poses_of(self, room, seed)
-        for field in ("robots", "props"):
-            parts = [
-                part.replace(pose=poses[part.name]) if part.name in poses else part
-                for part in getattr(self, field)
-            ]
-            object.__setattr__(self, field, tuple(parts))
-        for known in ("bodies", "bounds"):
-            self.__dict__.pop(known, None)
+    def _placed(self, seed: int) -> dict[str, Any]:
+        """Return the robots, props and bodies with the poses that follow from the seed."""
+        poses = poses_of(self, self._room, seed)
 
-    def _check_starts(self) -> None:
-        """Refuse bodies that start outside the workspace, in an obstacle or in each other."""
-        overlap = self.max_overlap
-        if self.workspace is not None and self.on_exit != "ignore":
-            starts.check_in_workspace(self.bodies[: len(self.robots)], self.workspace)
-        if self.workspace is not None and self.on_exit == "wall":
-            starts.check_off_walls(self.bodies, self.workspace, overlap)
-        starts.check_off_obstacles(self.bodies, self.obstacles, overlap)
-        starts.check_apart(self.bodies, overlap, self.joined)
+        def placed(part: Any) -> Any:
+            if part.name not in poses:
+                return part
+            twin = copy.copy(part)
+            vars(twin)["pose"] = poses[part.name]
+            return twin
+
+        bodies = [body._replace(pose=poses.get(body.name, body.pose)) for body in self.bodies]
+        return {
+            "robots": tuple(map(placed, self.robots)),
+            "props": tuple(map(placed, self.props)),
+            "bodies": tuple(bodies),
+        }
 
     @cached_property
     def bodies(self) -> tuple[Rigid, ...]:
@@ -364,6 +369,16 @@ class Scenario(Description):
             return self.bodies[body].name
         walled = len(self.surfaces) > len(self.obstacles)
         return "wall" if walled and body == -len(self.surfaces) else f"obstacle {-1 - body}"
+
+    @cached_property
+    def _ending(self) -> tuple[tuple[frozenset[int], frozenset[int]], ...]:
+        pairs = () if self.stop_on is None or isinstance(self.stop_on, str) else self.stop_on
+        return bodies_named(self, pairs, self._indices, len(self.surfaces)) if pairs else ()
+
+    def ends_by(self, a: int, b: int) -> bool:
+        """Return whether a touch of two bodies, numbered as in contacts, ends the experiment."""
+        pairs = [(one, other) for ends in self._ending for one, other in (ends, ends[::-1])]
+        return self.stop_on == CONTACT or any(a in one and b in other for one, other in pairs)
 
     def friction_between(self, a: int, b: int) -> float:
         """Return the coefficient of friction that holds two bodies of a contact, as they rest.

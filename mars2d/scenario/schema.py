@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 from typing import Any
 
+from mars2d.core import checks
 from mars2d.core.description import Description, Schema, schema_of
 from mars2d.scenario import serialize
 from mars2d.scenario.robot import Robot
@@ -12,7 +13,11 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import Place
 from mars2d.scenario.toml_file import FORMAT, NONE, READY_MADE, takes_none
 
-LAW: Schema = {"type": "string", "description": "a law, such as file.py:function"}
+LAW: Schema = {
+    "type": "string",
+    "pattern": rf"\.py(:_*{checks.NAME})?$",
+    "description": "a law, such as file.py:function",
+}
 
 
 def schema() -> Schema:
@@ -54,15 +59,8 @@ def _table(kind: type[Description]) -> Schema:
         given = (field.default, field.default_factory)
         if given == (dataclasses.MISSING, dataclasses.MISSING):
             needed.append(field.name)
-    twins = {twin: name for twin, (name, _) in kind.twins.items()}
-    properties |= {twin: {"type": "number"} for twin in twins}
-    either = [[name, *(t for t in twins if twins[t] == name)] for name in needed]
     found = {"type": "object", "properties": properties, "additionalProperties": False}
-    if required := [names[0] for names in either if len(names) == 1]:
-        found["required"] = required
-    if several := [names for names in either if len(names) > 1]:
-        found["allOf"] = [{"anyOf": [{"required": [n]} for n in names]} for names in several]
-    return found
+    return found | ({"required": needed} if needed else {})
 
 
 def _values(kind: type[Description], field: dataclasses.Field[Any], place: Place | None) -> Schema:
@@ -70,20 +68,37 @@ def _values(kind: type[Description], field: dataclasses.Field[Any], place: Place
     if place is not None:
         found = _parts(place)
         if kind is Scenario and field.name == "robots":
-            found = {"anyOf": [found, {"type": "integer", "minimum": 1}]}
+            found |= {"type": ["array", "integer"], "minItems": 1, "minimum": 1, "maximum": 10_000}
     elif field.name == "controller" and issubclass(kind, Robot):
-        found = {"anyOf": [LAW, *_parts(READY_MADE)["anyOf"]]}
+        found = _parts(READY_MADE, LAW)
     else:
         found = schema_of(field)
-    return {"anyOf": [found, {"const": NONE}]} if found and takes_none(field) else found
+    return {"if": {"not": {"const": NONE}}, "then": found} if found and takes_none(field) else found
 
 
-def _parts(place: Place) -> Schema:
-    """Return the schema of one part, or of a list."""
+def _parts(place: Place, otherwise: Schema | None = None) -> Schema:
+    """Return the schema of one part, or of a list. otherwise: of a text that names none.
+
+    A table's type alone decides by which schema its fields are judged, so an editor marks the one
+    value that is wrong, and not all the tables around it.
+    """
     kinds = serialize.kinds_of(place.base)
-    tables = []
-    for kind in kinds.values():
-        table: Schema = {"$ref": f"#/$defs/{_key(kind)}"}
-        tables.append(table if kind is place.default else table | {"required": ["type"]})
-    one: Schema = {"anyOf": [{"enum": list(kinds)}, *tables]}
+    named: Schema = {"enum": list(kinds)}
+    table: Schema = {"properties": {"type": named}}
+    if place.default is None:
+        table["required"] = ["type"]
+    table["allOf"] = [
+        {
+            "if": {"properties": {"type": {"const": name}}}
+            | ({} if kind is place.default else {"required": ["type"]}),
+            "then": {"$ref": f"#/$defs/{_key(kind)}"},
+        }
+        for name, kind in kinds.items()
+    ]
+    one: Schema = {
+        "type": ["string", "object"],
+        "if": {"type": "string"},
+        "then": {"anyOf": [named, otherwise]} if otherwise else named,
+        "else": table,
+    }
     return {"type": "array", "items": one} if place.many else one

@@ -2,67 +2,126 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mars2d.bodies.rigid import Rigid
 from mars2d.core.arithmetic import norm, norms
-from mars2d.core.errors import InputError, shown
+from mars2d.core.errors import shown
 from mars2d.core.plane import Outline, distance_to_ring, lines_and_areas, outside_polygon
 
 if TYPE_CHECKING:
     import shapely
 
+    from mars2d.scenario.scenario import Scenario
+
+Float = NDArray[np.float64]
+
 SMOOTH = 64
 """Corners per quarter of a circle, for a disc that is compared with a polygon."""
 
 
-def check_in_workspace(robots: Sequence[Rigid], workspace: Outline) -> None:
-    """Refuse robots whose pose lies outside the workspace."""
-    x, y, _ = np.array([robot.pose for robot in robots]).T
-    for i in np.flatnonzero(outside_polygon(x, y, np.array(workspace))).tolist():
-        raise InputError(
-            f"{_pose(robots[i])}: starts outside the workspace"
-            " (Scenario.workspace, or on_exit='ignore' to let it)"
-        )
+class Fault(NamedTuple):
+    """A body that can't start where it is.
+
+    kind: it is "outside" the workspace, in its "wall", in an "obstacle", or it would "overlap"
+    another. body: its index in `Scenario.bodies`. other: the index of the obstacle or of the other
+    body. depth: of the overlap, about, metres. inside: whether its middle lies in the obstacle.
+    """
+
+    kind: Literal["outside", "wall", "obstacle", "overlap"]
+    body: int
+    other: int = -1
+    depth: float = 0.0
+    inside: bool = False
+
+    def told(self, scenario: Scenario) -> str:
+        """Return it in words, for who wrote the scenario."""
+        body, outlines = scenario.bodies[self.body], scenario.obstacles
+        where = f"{body.kind}.pose of {body.name} = {body.pose}"
+        if self.kind == "outside":
+            hint = "(Scenario.workspace, or on_exit='ignore' to let it)"
+            return f"{where}: starts outside the workspace {hint}"
+        if self.kind == "wall":
+            size = f"; its radius is {body.bound[1]:g} m" if body.is_disc else ""
+            return f"{where}: starts in the workspace's wall, or outside{size}"
+        if self.kind == "obstacle":
+            hint = " (if it is a room, draw it as walls of two points)" if self.inside else ""
+            how = "inside" if self.inside else "in contact with"
+            what = f"obstacle {self.other}, {shown(outlines[self.other], 80)}"
+            return f"{where}: starts {how} {what}{hint}"
+        other = scenario.bodies[self.other]
+        both = f"{where} and of {other.name} = {other.pose}"
+        return f"{both}: they start {self.depth:.3g} m inside each other"
 
 
-def check_off_walls(bodies: Sequence[Rigid], workspace: Outline, overlap: float) -> None:
-    """Refuse bodies that start in or beyond the wall round the workspace."""
-    corners = np.array(workspace)
-    x, y = np.array([body.bound[0] for body in bodies]).T
+def faults(
+    scenario: Scenario, bodies: Sequence[Rigid], moved: int | None = None
+) -> Iterator[Fault]:
+    """Find the bodies that start outside the workspace, in an obstacle, or in each other.
+
+    bodies: those of the scenario, perhaps at other poses. moved: the only one that is judged.
+    """
+    outlines, overlap = scenario.obstacles, scenario.max_overlap
+    chosen = list(range(len(bodies))) if moved is None else [moved]
+    if scenario.workspace is not None and scenario.on_exit != "ignore":
+        corners = np.array(scenario.workspace)
+        robots = [i for i in chosen if i < len(scenario.robots)]
+        places = np.array([bodies[i].pose[:2] for i in robots]).reshape(-1, 2)
+        for k in np.flatnonzero(outside_polygon(places[:, 0], places[:, 1], corners)).tolist():
+            yield Fault("outside", robots[k])
+        if scenario.on_exit == "wall" and scenario.physics != "ideal":
+            yield from (Fault("wall", i) for i in _in_wall(bodies, chosen, corners, overlap))
+    if scenario.physics == "ideal":  # bodies go through each other, and all else
+        return
+    for i in chosen:
+        for k in _cut_by(bodies[i], outlines, overlap)[:1]:
+            x, y = np.array([bodies[i].bound[0]]).T
+            solid = len(outlines[k]) > 2 and not outside_polygon(x, y, np.array(outlines[k]))[0]
+            yield Fault("obstacle", i, k, inside=bool(solid))
+    for i, k in _near(bodies, moved):
+        if (i, k) not in scenario.joined and (deep := _depth(bodies[i], bodies[k], overlap)):
+            yield Fault("overlap", i, k, deep)
+
+
+def _in_wall(
+    bodies: Sequence[Rigid], chosen: Sequence[int], corners: Float, overlap: float
+) -> Iterator[int]:
+    """Yield the bodies that lie in or beyond the wall round the workspace."""
+    x, y = np.array([bodies[i].bound[0] for i in chosen]).T
     gaps, outside = distance_to_ring(x, y, corners), outside_polygon(x, y, corners)
-    for body, gap, out in zip(bodies, gaps.tolist(), outside.tolist(), strict=True):
+    for i, gap, out in zip(chosen, gaps.tolist(), outside.tolist(), strict=True):
+        body = bodies[i]
         if body.is_disc:
             free = not out and gap >= body.bound[1] - _allowed(body, overlap)
         else:
             import shapely
 
-            free = shapely.Polygon(workspace).contains(_core(body, overlap))
+            free = shapely.Polygon(corners).contains(_core(body, overlap))
         if not free:
-            size = f"; its radius is {body.bound[1]:g} m" if body.is_disc else ""
-            raise InputError(f"{_pose(body)}: starts in the workspace's wall, or outside{size}")
+            yield i
 
 
-def check_off_obstacles(
-    bodies: Sequence[Rigid], outlines: Sequence[Outline], overlap: float
-) -> None:
-    """Refuse bodies that start inside an obstacle, or cut into one."""
-    for body in bodies:
-        for k in cut_by(body, tuple(outlines), overlap):
-            x, y = np.array([body.bound[0]]).T
-            solid = len(outlines[k]) > 2 and not outside_polygon(x, y, np.array(outlines[k]))[0]
-            hint = " (if it is a room, draw it as walls of two points)" if solid else ""
-            raise InputError(
-                f"{_pose(body)}: starts {'inside' if solid else 'in contact with'} obstacle {k}, "
-                f"{shown(outlines[k], 80)}{hint}"
-            )
+def _near(bodies: Sequence[Rigid], moved: int | None) -> Iterator[tuple[int, int]]:
+    """Yield the pairs (i, k), i < k, of bodies whose circles overlap; moved: as for `faults`."""
+    centers = np.array([body.bound[0] for body in bodies])
+    radii = np.array([body.bound[1] for body in bodies])
+    # Sweep along the longer side: who comes later than the reach is too far away.
+    along = centers[:, np.argmax(np.ptp(centers, axis=0))]
+    order = np.argsort(along, kind="stable")
+    ends = np.searchsorted(along[order], along[order] + 2 * radii.max(), side="right")
+    for place, i in enumerate(order) if moved is None else [(-1, moved)]:
+        others = order[place + 1 : ends[place]] if moved is None else np.delete(order, order == i)
+        gaps = norms(*(centers[others] - centers[i]).T) - radii[others] - radii[i]
+        for k in np.flatnonzero(gaps < 0):
+            yield min(int(i), int(others[k])), max(int(i), int(others[k]))
 
 
-def cut_by(body: Rigid, outlines: tuple[Outline, ...], overlap: float) -> list[int]:
+def _cut_by(body: Rigid, outlines: tuple[Outline, ...], overlap: float) -> list[int]:
     """Return the obstacles, by index, that a body cuts deeper than an overlap, metres."""
     if not outlines:
         return []
@@ -77,32 +136,7 @@ def cut_by(body: Rigid, outlines: tuple[Outline, ...], overlap: float) -> list[i
     return sorted(found.tolist())
 
 
-def check_apart(
-    bodies: Sequence[Rigid], overlap: float, joined: Collection[tuple[int, int]] = ()
-) -> None:
-    """Refuse bodies that start inside each other, unless they share a hinge.
-
-    joined: pairs (i, j), i < j, of bodies that may overlap.
-    """
-    centers = np.array([body.bound[0] for body in bodies])
-    radii = np.array([body.bound[1] for body in bodies])
-    # Sweep along the longer side: who comes later than the reach is too far away.
-    along = centers[:, np.argmax(np.ptp(centers, axis=0))]
-    order = np.argsort(along, kind="stable")
-    ends = np.searchsorted(along[order], along[order] + 2 * radii.max(), side="right")
-    for place, i in enumerate(order):
-        others = order[place + 1 : ends[place]]
-        gaps = norms(*(centers[others] - centers[i]).T) - radii[others] - radii[i]
-        for k in np.flatnonzero(gaps < 0):
-            a, b = sorted((int(i), int(others[k])))
-            if (a, b) not in joined and (deep := depth(bodies[a], bodies[b], overlap)):
-                raise InputError(
-                    f"{_pose(bodies[a])} and of {bodies[b].name} = {bodies[b].pose}: "
-                    f"they start {deep:.3g} m inside each other"
-                )
-
-
-def depth(a: Rigid, b: Rigid, overlap: float) -> float:
+def _depth(a: Rigid, b: Rigid, overlap: float) -> float:
     """Return about how deep two bodies overlap, metres; 0 if no deeper than is allowed."""
     if a.is_disc and b.is_disc:
         ((ax, ay), one), ((bx, by), other) = a.bound, b.bound
@@ -145,7 +179,3 @@ def _core(body: Rigid, overlap: float) -> shapely.Geometry:
 def _allowed(body: Rigid, overlap: float) -> float:
     """Return how deep a body may start in something, metres."""
     return min(overlap, body.shape.thickness / 8)
-
-
-def _pose(body: Rigid) -> str:
-    return f"{body.kind}.pose of {body.name} = {body.pose}"

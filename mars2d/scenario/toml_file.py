@@ -208,16 +208,29 @@ def _parsed(path: Path, text: str) -> dict[str, Any]:
         number = re.match(r"line (\d+)", place)
         if number is None:
             raise located(f"{path.name}, at its end" if place else path.name, message) from None
-        line = text.split("\n")[int(number[1]) - 1].strip()
-        hint = HINT if PYTHON.search(line) else ""
+        before = text.split("\n")[: int(number[1])]
+        line = before[-1].strip()
+        hint = next((f"; {hint}" for code, hint in HINTS.items() if re.search(code, line)), "")
         problem = f"{message}: {shown(line)[1:-1]}{hint}" if line else message
-        raise located(f"{path.name}, line {number[1]}", problem) from None
+        *_, table = "", *_lines_of("\n".join(filter(HEADER.fullmatch, map(str.strip, before))))
+        where = f"{path.name}, line {number[1]}"
+        raise located(f"{where}, {table}" if table else where, problem) from None
 
 
-PYTHON = re.compile(r"=\s*\(|\b(True|False|None)\b")
-"""Python that is written differently in TOML."""
-
-HINT = "; TOML writes true, false and [1, 2]; what is None is left out"
+HINTS = {
+    r"^(//|%|;)": "a comment begins with #",
+    r"^\w+\s*:": "a field is NAME = VALUE",
+    r"=\s*\{[^}]*$": "a table in braces has one line; a longer one has a head, [robots.drive]",
+    r"=\s*[-+]?\d+,\d*$": "decimals have a point: 0.5",
+    r"[=\[,]\s*[-+]?\.\d": "a digit stands before the point: 0.5",
+    r"=\s*\(": "a list has brackets: [1, 2]",
+    r"\b(True|False)\b": "TOML writes true and false",
+    r"\b(null|None|nil)\b": "what is None is left out, or is 'none'",
+    r"\d\s*deg": "angles are in radians: 90 degrees are 1.5708",
+    r"\bpi\b|\d\s*[*/+]": "TOML does not calculate: pi is 3.14159265, and pi/2 is 1.57079633",
+    r"=\s*[A-Za-z]": "text stands in quotes: 'red'",
+}
+"""What to write, by what people write in files of this kind."""
 
 
 class _Reader:
@@ -280,8 +293,6 @@ class _Reader:
             with self._pointing(at, name):
                 if name in fields:
                     values[name] = self._field(kind, fields[name], item, _inside(at, name))
-                elif name in kind.twins:
-                    values[name] = item
                 elif name != "type":
                     known = [*fields, *(HEADS if kind is Scenario else ["type"])]
                     near = likely(name, known) or kind.meant(name)

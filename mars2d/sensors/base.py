@@ -22,7 +22,6 @@ from mars2d.core.description import (
     number,
     real,
     snake_case,
-    text,
     wrong,
 )
 from mars2d.core.errors import InputError
@@ -244,7 +243,9 @@ class Sensor(Stateful):
     late or slow reading is so in any case.
     """
 
-    name: str | None = text(default=None, optional=True, doc="the name of the reading")
+    name: str | None = entry(
+        default=None, check=checks.identifier("robot.sense."), doc="the name of the reading"
+    )
     mount: tuple[float, float, float] = entry(
         default=(0.0, 0.0, 0.0), check=checks.pose, unit="m, m, rad",
         doc="its pose on the robot: ahead, left, angle",
@@ -280,7 +281,6 @@ class Sensor(Stateful):
 
     def _validate(self) -> None:
         kind = type(self).__name__
-        checks.identifier(f"{kind}.name", self.name, "robot.sense.")
         known = isinstance(self.quantities, tuple) and self.quantities
         if not (known and all(isinstance(quantity, Quantity) for quantity in self.quantities)):
             expected = "a tuple of quantities, such as (DISTANCE,); a single one needs the comma"

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import time
+from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import pygame
 
 from mars2d.core.errors import Mars2dError, counted
-from mars2d.output.figures.comparison import COLORS, MEANINGS, MODES
+from mars2d.output.figures.comparison import COLORS, COUNTED, MEANINGS, MODES
 from mars2d.output.films.footage import Cut
 from mars2d.output.raster.bars import Status, draw_footer, draw_header, footer_height
 from mars2d.output.raster.layout import Layout
@@ -32,6 +33,9 @@ Pixel = tuple[int, int]
 HINTS = (("Space", "pause"), ("← →", "step"), ("N", "contact"), ("F1", "help"))
 TITLE_HEIGHT = 74.0
 """The height of the title above an arena, points."""
+WIDE, TALL, SMALLEST = 290.0, 390.0, 0.75
+"""The width of an arena and the height of arenas with titles and plot in which letters are as large
+as everywhere, points; where there is less room they are smaller, down to this size."""
 PLOT_SHARE, MIN_PLOT = 0.34, 150.0
 """The largest part of the height for the plot, and its least height, points."""
 
@@ -99,7 +103,8 @@ class CompareWindow(PlayerWindow):
 
     def _arrange(self, layout: Layout) -> Layout:
         """Give arenas and plot their places; return a layout whose picture is the first arena."""
-        ui, room = layout.ui, layout.plot
+        room = layout.plot
+        ui = self._ui = max(min(layout.ui, room.width / 3 / WIDE, room.height / TALL), SMALLEST)
         top = room.top + round(TITLE_HEIGHT * ui)
         low = round(min(max(PLOT_SHARE * room.height, MIN_PLOT * ui), 0.5 * room.height))
         xmin, xmax, ymin, ymax = self.trio.scenario.bounds
@@ -112,15 +117,16 @@ class CompareWindow(PlayerWindow):
             for mode, left, right in zip(MODES, edges, edges[1:], strict=False)
         }
         self._plot_place = pygame.Rect(room.left, top + high, room.width, room.bottom - top - high)
-        return replace(layout, plot=self.plots[MODES[0]])
+        return replace(layout, plot=self.plots[MODES[0]], ui=ui)
 
     def _draw_runs(
         self, surface: pygame.Surface, layout: Layout, moment: float, status: Status
     ) -> None:
         """Draw the header, the arenas and the plot at a time [s]."""
         painter, trio = self.looks.painter, self.trio
-        theme, painter.ui = painter.theme, layout.ui
+        theme = painter.theme
         self.viewpoint.arrange(self._arrange(layout), trio.scenario)
+        painter.ui = self._ui
         surface.fill(theme.page)
         frames, counts = trio.frames(moment), trio.collisions(moment)
         layers = self.layers if self.player.error is None else self._own_layers()
@@ -137,6 +143,7 @@ class CompareWindow(PlayerWindow):
                 surface.fill(theme.edge, (plot.left, layout.plot.top, 1, plot.bottom))
         end = trio.scenario.sampling_time * trio.newest
         self.plot.draw(surface, self._plot_place, painter, trio.drifts, moment, end)
+        painter.ui = layout.ui
         latest = max(frames.values(), key=lambda frame: frame.time)
         draw_header(surface, layout, painter, latest, status)
 
@@ -147,14 +154,18 @@ class CompareWindow(PlayerWindow):
         painter, plot = self.looks.painter, self.plots[mode]
         ui, fonts, theme = painter.ui, painter.fonts, painter.theme
         left, right = plot.left + round(44 * ui), plot.right - round(20 * ui)
-        level, done = plot.top - round(TITLE_HEIGHT * ui), counted(collisions, "collision")
+        level, done = plot.top - round(TITLE_HEIGHT * ui), counted(collisions, COUNTED[mode])
         place = painter.write(
             surface, mode, 21 * ui, theme.shade(COLORS[mode]), bold=True,
             midleft=(left, level + 20 * ui),
         )  # fmt: skip
         if right - place.right >= fonts.width(done, 17 * ui) + 10 * ui:
             painter.write(surface, done, 17 * ui, theme.ink, midright=(right, level + 21 * ui))
-        text, color = MEANINGS[mode], theme.muted
+        text, color, joints = MEANINGS[mode], theme.muted, frame.scenario.joints
+        if joints and mode != "contact":
+            kinds = Counter(type(joint).__name__.lower() for joint in joints)
+            left_out = [counted(number, kind) for kind, number in kinds.items()]
+            text = f"without {', '.join(left_out)}; {text}"
         if frame.over_message:
             text, color = frame.over_message, theme.text
         for k, line in enumerate(fonts.wrap(text, 13.5 * ui, right - left, 2)):

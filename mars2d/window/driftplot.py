@@ -20,6 +20,16 @@ MIN_TIME = 2.0
 TITLE = "Distance from where contact puts a body"
 
 
+HIDDEN = 0.01
+"""How near a curve has to be to another to be hidden by it, in parts of the axis."""
+
+
+def _alike(one: Drift, other: Drift, name: str, apart: float) -> bool:
+    """Return whether a curve of one drift lies on that of another."""
+    both = zip(getattr(one, name).tolist(), getattr(other, name).tolist(), strict=False)
+    return all(abs(a - b) < apart for a, b in both)
+
+
 class DriftPlot:
     """Draws the largest and the mean drift of "stop" and "ideal"; a click on it is a time."""
 
@@ -71,6 +81,9 @@ class DriftPlot:
                 for points in polylines(area, limits, drift.time, getattr(drift, name)):
                     scene.line(points * (1, -1), **look)
                 word, size = f"{mode}, {name}", 12.5 * ui
+                above = drifts[next(iter(drifts))]
+                if drift is not above and _alike(drift, above, name, HIDDEN * limits.high):
+                    word = f"{word}: the same"
                 left = right - painter.fonts.width(word, size) - round(30 * ui)
                 if left > area.left:
                     painter.write(surface, word, size, theme.text, midright=(right, middle))

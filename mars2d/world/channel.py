@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import json
 from collections import defaultdict
-from math import nan
+from math import inf, nan
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons.communication import Burst, Communication
-from mars2d.core.arithmetic import steps_until
+from mars2d.core.arithmetic import ROUNDING, steps_until
 from mars2d.core.errors import LawError, nearest, shown
 from mars2d.record.message import (
     LOST,
@@ -28,6 +28,9 @@ from mars2d.world.surroundings import Around
 
 Int = NDArray[np.int64]
 
+BUFFER = 1.0
+"""How long a message may take until it has been sent at the bandwidth, s; others are dropped."""
+
 WHO = "a robot's index or name, a list of these, or None for all in reach"
 
 
@@ -36,6 +39,7 @@ class _Sent(NamedTuple):
 
     sender: int
     step: int  # the iteration
+    arrival: int  # the iteration at whose begin it arrives
     text: str
     size: int
     receivers: Int  # (k,)
@@ -68,16 +72,13 @@ class Channel:
         self._world, self._around, self._model = world, around, model
         self._names = [str(robot.name) for robot in world.scenario.robots]
         self._indices = {name: i for i, name in enumerate(self._names)}
-        dt = world.scenario.sampling_time
-        self._steps = max(1, steps_until(model.delay, dt))
-        self.delay = self._steps * dt  # s, from sending to arrival
         self._sent: list[_Sent] = []
-        self._used: dict[int, int] = defaultdict(int)  # bytes sent in this control step
+        self._free: dict[int, float] = defaultdict(float)  # when a sender has sent all, s
         self._coming: dict[int, list[tuple[_Letter, Int]]] = {}  # by the iteration of arrival
         self._arrived: list[tuple[_Letter, Int]] = []  # letters and their receivers
         self._letters: list[list[_Letter]] | None = None  # the same by receiver, once asked for
         self._inbox: dict[int, tuple[Message, ...]] = {}  # as far as it was asked for
-        self._links: dict[tuple[int, int], tuple[int, bool]] = {}  # when each was last known as bad
+        self._links: dict[tuple[int, int], tuple[float, bool]] = {}  # when known as bad, s
         self._hearers: tuple[int, list[Int]] = (-1, [])
 
     def inbox(self, robot: int) -> tuple[Message, ...]:
@@ -93,7 +94,8 @@ class Channel:
 
     def deliver(self) -> None:
         """Fill the inboxes with the messages that arrive now; empty all others."""
-        self._arrived = self._coming.pop(self._world.iteration, [])
+        coming = self._coming.pop(self._world.iteration, [])
+        self._arrived = sorted(coming, key=lambda item: item[0].sender)
         self._letters, self._inbox = None, {}
 
     def send(self, sender: int, content: Any, to: Any) -> None:
@@ -107,51 +109,55 @@ class Channel:
         reached = self._reached(sender, receivers)
         if to is None:
             receivers, reached = receivers[reached], reached[reached]
-        fits = self._model.bandwidth is None or self._used[sender] + size <= self._model.bandwidth
+        step, now = self._world.iteration, self._world.time
+        takes = size / (self._model.bandwidth or inf)
+        sent = max(now, self._free[sender]) + takes
+        fits = sent - now <= BUFFER + ROUNDING
         if fits:
-            self._used[sender] += size
+            self._free[sender] = sent
         going = ON_ITS_WAY if fits else OVER_BANDWIDTH
         status = np.where(reached, going, OUT_OF_REACH).astype(np.uint8)
-        self._sent.append(_Sent(sender, self._world.iteration, text, size, receivers, status))
+        dt = self._world.scenario.sampling_time
+        arrival = step + max(1, steps_until(sent - now + self._model.delay, dt))
+        self._sent.append(_Sent(sender, step, arrival, text, size, receivers, status))
 
     def transmit(self) -> None:
         """Send off the messages of the present control step, and record them."""
         sent, self._sent = sorted(self._sent, key=lambda item: item.sender), []
-        self._used.clear()
         dt = self._world.scenario.sampling_time
-        for sender, step, text, size, receivers, status in sent:
+        for sender, step, arrival, text, size, receivers, status in sent:
             if not len(receivers):
                 continue
             going = np.flatnonzero(status == ON_ITS_WAY)
-            status[going[self._lost(sender, receivers[going], step)]] = LOST
+            status[going[self._lost(sender, receivers[going], step * dt)]] = LOST
             arrives = status == ON_ITS_WAY
             if arrives.any():
                 letter = _Letter(sender, self._names[sender], step * dt, text)
-                coming = self._coming.setdefault(step + self._steps, [])
+                coming = self._coming.setdefault(arrival, [])
                 coming.append((letter, receivers[arrives]))
             rows = np.empty(len(receivers), dtype=MESSAGE)
             rows["time"], rows["sender"], rows["size"] = step * dt, sender, size
-            rows["arrival"] = np.where(arrives, (step + self._steps) * dt, nan)
+            rows["arrival"] = np.where(arrives, arrival * dt, nan)
             rows["receiver"], rows["status"] = receivers, status
             self._world.recorder.write_messages(text, rows)
 
-    def _lost(self, sender: int, receivers: Int, step: int) -> NDArray[np.bool_]:
+    def _lost(self, sender: int, receivers: Int, time: float) -> NDArray[np.bool_]:
         """Return the receivers that lose a message, as a mask (k,). Perfect links draw nothing."""
         model = self._model
         if model.burst is not None:
             burst, links = model.burst, [(sender, receiver) for receiver in receivers.tolist()]
-            lost = [burst.loses(self._is_bad(burst, link, step), model.rng) for link in links]
+            lost = [burst.loses(self._is_bad(burst, link, time), model.rng) for link in links]
             return np.array(lost, dtype=bool)
         if model.loss:
             return np.asarray(model.rng.random(len(receivers)) < model.loss)
         return np.zeros(len(receivers), dtype=bool)
 
-    def _is_bad(self, burst: Burst, link: tuple[int, int], step: int) -> bool:
-        """Return whether a link is bad during the present control step."""
-        known, bad = self._links.get(link, (step, None))
-        if bad is None or step > known:
-            bad = burst.turns(bad, step - known, self._model.rng)
-            self._links[link] = step, bad
+    def _is_bad(self, burst: Burst, link: tuple[int, int], time: float) -> bool:
+        """Return whether a link is bad during the control step at a time [s]."""
+        known, bad = self._links.get(link, (time, None))
+        if bad is None or time > known:
+            bad = burst.turns(bad, time - known, self._model.rng)
+            self._links[link] = time, bad
         return bad
 
     # -- to whom -------------------------------------------------------------------------------

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mars2d.core import checks
 from mars2d.core.arrays import within
-from mars2d.core.errors import LawError, shown
+from mars2d.core.errors import InputError, LawError, shown
 from mars2d.core.quantity import Quantity
 from mars2d.core.usercode import called, definition, name_of
 
@@ -75,6 +75,11 @@ class Law:
         raise error
 
 
+def refuse(given: str, message: str) -> NoReturn:
+    """Raise the error that a command can't be used that a program has given."""
+    raise InputError(f"{given} {message.replace('returned', 'was given', 1)}")
+
+
 def robot_command(
     value: Any, inputs: Sequence[Quantity], refuse: Callable[[str], NoReturn]
 ) -> tuple[float, ...]:
@@ -109,6 +114,10 @@ def team_command(value: Any, still: Float, refuse: Callable[[str], NoReturn]) ->
     inputs, robots = still.shape
     if value is None:
         refuse(f"returned nothing: a law returns its command, an array ({inputs}, n)")
+    square = inputs == robots > 1 and isinstance(value, (list, tuple))
+    if square and all(type(row) is tuple for row in value):
+        hint = "write np.transpose(...) of them, or a list for each row"
+        refuse(f"returned {shown(value)}: is each tuple a robot's command? Then {hint}")
     rows = f"{COUNTS[inputs]} row{'s' * (inputs > 1)}"
     expected = f"expected {rows} and a column for each robot, shape {still.shape}"
     command = _numbers(value)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from math import ceil, dist, sqrt
 from typing import TYPE_CHECKING, Any
 
@@ -17,15 +18,17 @@ from mars2d.core.errors import InputError
 from mars2d.core.plane import Point
 from mars2d.physics.engine import Engine
 from mars2d.physics.kinematics import Kinematics
-from mars2d.record.interventions import Change, Intervention, Place, Pull, Steer
+from mars2d.record.interventions import Change, Intervention, Place, Pull, Push, Steer
 from mars2d.scenario.changes import check_same, moves_alike, obstruction, with_poses
 from mars2d.scenario.scenario import Scenario
-from mars2d.world.laws import COUNTS
+from mars2d.world.laws import refuse, robot_command
 
 if TYPE_CHECKING:
     from mars2d.world.simulation import Simulation
 
 Float = NDArray[np.float64]
+Load = tuple[float, float, float]
+"""A force (x, y) [N] and a torque [N m] on a body."""
 
 SLICE = 0.01
 """The longest time that the force of a spring stays the same, seconds."""
@@ -52,9 +55,10 @@ class Operator:
     def __init__(self, world: Simulation) -> None:
         """Take the world; nothing is done to it yet."""
         self._world = world
-        self._driven: dict[int, list[float]] = {}
+        self._driven: dict[int, tuple[float, ...]] = {}
         self._steered: set[int] = set()  # those that the log says are driven
         self._pulls: dict[int, Pull] = {}
+        self._pushes: list[Push] = []
         self._held: list[int] = []
         self._force: dict[int, float] = {}
         self.log: list[Intervention] = []
@@ -81,11 +85,8 @@ class Operator:
         if command is None:
             self._drive_no_more(index)
             return
-        given = command.tolist() if isinstance(command, np.ndarray) else command
-        count = len(self._world.scenario.robots[index].drive.inputs)
-        if not isinstance(given, (tuple, list)) or len(given) != count:
-            raise wrong("Operator.steer(command)", command, f"{COUNTS[count]} numbers, or None")
-        numbers = [real("Operator.steer(command)", number, "a number") for number in given]
+        inputs = self._world.scenario.robots[index].drive.inputs
+        numbers = robot_command(command, inputs, partial(refuse, "Operator.steer: the command"))
         if index not in self._steered:
             self._note(Steer(self._world.iteration, index, driven=True))
         self._driven[index] = numbers
@@ -101,7 +102,7 @@ class Operator:
         self.log.append(steer)
 
     def let_go(self) -> None:
-        """Let go of all robots that are driven and all bodies that are pulled."""
+        """Let go of all robots that are driven and all bodies that are pulled; pushes go on."""
         for robot in sorted(self._steered):
             self._drive_no_more(robot)
         for pull in self.pulls:
@@ -191,27 +192,54 @@ class Operator:
         pulled to [m]; None lets go. force: of the spring at most, N. speed: of the grip at most,
         m/s. Raises InputError where no forces act, as with physics="stop".
         """
-        world = self._world
-        index = world.scenario.body_index_of("Operator.pull", body)
-        fault = forceless(world.scenario, index)
-        if fault:
-            raise InputError(fault)
+        index, point = self._gripped("Operator.pull", body, grip)
         pull = Pull(
-            world.iteration,
+            self._world.iteration,
             index,
-            checks.point("Operator.pull(grip)", grip),
+            point,
             None if target is None else checks.point("Operator.pull(target)", target),
             real("Operator.pull(force)", force),
             real("Operator.pull(speed)", speed),
         )
-        center, radius = world.scenario.bodies[index].shape.bound
-        if dist(pull.grip, center) > radius * (1 + ROUNDING):
-            raise wrong("Operator.pull(grip)", grip, f"a point of the body, within {radius:g} m")
         if not 0 < pull.force <= MAX_FORCE:
             raise wrong("Operator.pull(force)", force, f"a number > 0 and <= {MAX_FORCE:g} [N]")
         if not 0 < pull.speed <= MAX_SPEED:
             raise wrong("Operator.pull(speed)", speed, f"a number > 0 and <= {MAX_SPEED:g} [m/s]")
         self._pull(pull)
+
+    def push(
+        self, body: str | int, force: Point, duration: float, grip: Point = (0.0, 0.0)
+    ) -> None:
+        """Push a robot or prop by a constant force from now on, for a duration [s].
+
+        force: (x, y), N. grip: the point of the body at which it acts, in its frame [m]. Pushes of
+        one body add up. Raises InputError as `pull` does.
+        """
+        index, point = self._gripped("Operator.push", body, grip)
+        acts = checks.point("Operator.push(force)", force)
+        lasts = real("Operator.push(duration)", duration)
+        if not 0 < norm(*acts) <= MAX_FORCE:
+            raise wrong("Operator.push(force)", force, f"more than 0 and up to {MAX_FORCE:g} [N]")
+        if lasts <= 0:
+            raise wrong("Operator.push(duration)", duration, "a number > 0 [s]")
+        self._push(Push(self._world.iteration, index, point, acts, lasts))
+
+    def _push(self, push: Push) -> None:
+        self._pushes.append(push)
+        self.log.append(push)
+
+    def _gripped(self, call: str, body: str | int, grip: Point) -> tuple[int, Point]:
+        """Return the index of a body that forces can move, and a point of it."""
+        scenario = self._world.scenario
+        index = scenario.body_index_of(call, body)
+        fault = forceless(scenario, index)
+        if fault:
+            raise InputError(fault)
+        point = checks.point(f"{call}(grip)", grip)
+        center, radius = scenario.bodies[index].shape.bound
+        if dist(point, center) > radius * (1 + ROUNDING):
+            raise wrong(f"{call}(grip)", grip, f"a point of the body, within {radius:g} m")
+        return index, point
 
     def _pull(self, pull: Pull) -> None:
         """Keep the last pull of a body, and log it in place of others of the same control step."""
@@ -244,9 +272,12 @@ class Operator:
             self.place(intervention.body, intervention.pose)
         elif isinstance(intervention, Change):
             moved, options = dict(intervention.moved), dict(intervention.options)
-            self.change(intervention.scenario, intervention.control, moved, options)
+            scenario, given = intervention.scenario, intervention.given
+            self.change(scenario, intervention.control, moved, options, given)
         elif isinstance(intervention, Steer):
             self._note(intervention)
+        elif isinstance(intervention, Push):
+            self._push(intervention)
         else:
             self._pull(intervention)
 
@@ -255,38 +286,60 @@ class Operator:
     def drive(
         self, engine: Engine | Kinematics, twist: Float, duration: float, time: float
     ) -> None:
-        """Let an engine move everything for `duration` seconds, under the pulls."""
+        """Let an engine move everything for `duration` seconds, under pulls and pushes."""
         self._force = {}
-        if not (self._pulls and isinstance(engine, Engine)):
+        if not ((self._pulls or self._pushes) and isinstance(engine, Engine)):
             engine.drive(twist, duration, time)
             return
-        count = ceil(duration / min(SLICE, self._longest_slice(engine)))
+        dt, begin = self._world.sampling_time, 0.0
+        left = {push: push.row * dt + push.duration - time for push in self._pushes}
+        ends = {end for end in left.values() if TINY < end < duration - TINY}
+        for end in [*sorted(ends), duration]:
+            pushes = [push for push in self._pushes if left[push] - begin > TINY]
+            self._drive_under(engine, twist, end - begin, time + begin, pushes)
+            begin = end
+
+    def _drive_under(
+        self, engine: Engine, twist: Float, duration: float, time: float, pushes: Sequence[Push]
+    ) -> None:
+        """Do so while the pulls and the same pushes act."""
+        if not (self._pulls or pushes):
+            engine.drive(twist, duration, time)
+            return
+        count = ceil(duration / min(SLICE, self._longest_slice(engine, pushes)))
         h = duration / count
         for k in range(count):
             poses, velocities = engine.pose, engine.velocity
             engine.let_go()
-            for pull in self._pulls.values():
-                self._tug(engine, pull, poses[:, pull.body], velocities[:, pull.body])
+            loads = {
+                body: self._spring(pull, poses[:, body], velocities[:, body])
+                for body, pull in self._pulls.items()
+            }
+            for push in pushes:
+                own, others = _pushed(push, float(poses[2, push.body])), loads.get(push.body)
+                loads[push.body] = own if others is None else _sum(own, others)
+            for body, load in loads.items():
+                self._load(engine, body, *load)
             engine.drive(twist, h, time + k * h)
         engine.let_go()
 
-    def _longest_slice(self, engine: Engine) -> float:
-        """Return the longest time that springs may act unchanged, seconds."""
+    def _longest_slice(self, engine: Engine, pushes: Sequence[Push]) -> float:
+        """Return the longest time that forces may act unchanged, seconds."""
         bodies = self._world.scenario.bodies
-        most = max(
+        most = [
             min(pull.force / bodies[pull.body].inertia.mass, 4 * STIFFNESS * pull.speed)
             for pull in self._pulls.values()
-        )
-        return engine.step_under(most)
+        ]
+        most += [norm(*push.force) / bodies[push.body].inertia.mass for push in pushes]
+        return engine.step_under(max(most))
 
-    def _tug(self, engine: Engine, pull: Pull, pose: Float, velocity: Float) -> None:
-        """Let a spring act on a body."""
-        fx, fy, torque = self._spring(pull, pose, velocity)
-        self._force[pull.body] = norm(fx, fy)
-        if not engine.withstands(pull.body, norm(fx, fy), abs(torque)):
-            engine.pull(pull.body, (fx, fy), torque)
+    def _load(self, engine: Engine, body: int, fx: float, fy: float, torque: float) -> None:
+        """Let a force and a torque act on a body, unless it withstands them."""
+        self._force[body] = norm(fx, fy)
+        if not engine.withstands(body, norm(fx, fy), abs(torque)):
+            engine.pull(body, (fx, fy), torque)
 
-    def _spring(self, pull: Pull, pose: Float, velocity: Float) -> tuple[float, float, float]:
+    def _spring(self, pull: Pull, pose: Float, velocity: Float) -> Load:
         """Return the force [N] and the torque [N m] of a spring on a body at a pose (3,)."""
         assert pull.target is not None
         mass, moment = self._world.scenario.bodies[pull.body].inertia
@@ -305,6 +358,17 @@ class Operator:
         fy = 2 * STIFFNESS * felt * (speed / way * wy - (vy + spin * ax))
         share = min(1.0, pull.force / max(norm(fx, fy), TINY))
         return share * fx, share * fy, share * (ax * fy - ay * fx)
+
+
+def _pushed(push: Push, theta: float) -> Load:
+    """Return the force [N] and the torque [N m] of a push on a body at an angle."""
+    (x, y), (fx, fy) = push.grip, push.force
+    c, s = cosine_sine(theta)
+    return fx, fy, (c * x - s * y) * fy - (s * x + c * y) * fx
+
+
+def _sum(one: Load, other: Load) -> Load:
+    return one[0] + other[0], one[1] + other[1], one[2] + other[2]
 
 
 def forceless(scenario: Scenario, body: int) -> str:

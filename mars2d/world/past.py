@@ -99,7 +99,7 @@ class Past:
     def world_at(
         self, track: Track, row: int, progress: Progress, world: World | None = None
     ) -> World:
-        """Return a world as it was at a row, which has read its sensors; hands have let go of it.
+        """Return a world as it was at a row, which has read its sensors, with hands still on it.
 
         world: to begin with, at the start. Raises InputError where `progress` breaks it off, and
         where the world is not the same.
@@ -125,7 +125,6 @@ class Past:
                 f"can't go back: run again, things were not the same at step {row}. Does a law, a "
                 "sensor or an add-on depend on something outside of the world?"
             )
-        world.operator.let_go()
         return world
 
     def _nearest(self, track: Track, row: int) -> World:
@@ -188,10 +187,9 @@ def _redo(track: Track, world: World) -> None:
     row, log = world.iteration, world.operator.log
     if log and log[-1].row == row:
         return
-    for intervention in track.interventions(row):
-        if isinstance(intervention, Change):
-            scenario = carried(world.scenario, intervention.scenario, intervention.given)
-            moved, options = dict(intervention.moved), dict(intervention.options)
-            world.operator.change(scenario, world.control, moved, options, intervention.given)
-        else:
-            world.operator.redo(intervention)
+    for each in track.interventions(row):
+        again = each
+        if isinstance(each, Change):
+            scenario = carried(world.scenario, each.scenario, each.given)
+            again = replace(each, scenario=scenario, control=world.control)
+        world.operator.redo(again)

@@ -65,7 +65,7 @@ class Record(Rows):
 
     def plot_signals(
         self,
-        *columns: str,
+        *columns: str | Sequence[str],
         robots: Sequence[str | int] | None = None,
         axes: Sequence[Axes] | None = None,
         start: float | None = None,
@@ -84,6 +84,14 @@ class Record(Rows):
         from mars2d.output.figures.contacts import plot_contacts
 
         return plot_contacts(self, axes, style=style)
+
+    def plot_impacts(
+        self, axes: Sequence[Axes] | None = None, *, style: str = "screen"
+    ) -> list[Axes]:
+        """Draw what touches did to velocities, with numbers; see `figures.impacts.plot_impacts`."""
+        from mars2d.output.figures.impacts import plot_impacts
+
+        return plot_impacts(self, axes, style=style)
 
     def plot_distances(self, ax: Axes | None = None, *, style: str = "screen") -> Axes:
         """Draw distances over time; see `mars2d.output.figures.distances.plot_distances`."""

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property, partial
 from time import perf_counter
-from typing import Any, NoReturn, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,10 +20,11 @@ from mars2d.core.hints import described
 from mars2d.core.interfaces import WorldLike
 from mars2d.core.scene import Scene
 from mars2d.record.columns import DiskError, Storage
+from mars2d.record.contact import met, met_or_parted
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.sensing import Device, Sensing
 from mars2d.world.channel import Channel
-from mars2d.world.laws import Laws, robot_command, team_command
+from mars2d.world.laws import Laws, refuse, robot_command, team_command
 from mars2d.world.operator import Operator
 from mars2d.world.record import Record
 from mars2d.world.room import Room
@@ -48,8 +49,9 @@ class Simulation(State):
     declared: the scenario with its `random_starts`. operator: does to the world what is done from
     outside. laws: of the team and of single robots. watch: called with the world between sensing
     and control. world: the World that add-ons and watchers are called with. view: the world as laws
-    may see it. engine_seconds: how long the engine has taken by now. endless: whether the stop time
-    does not end it, as in a fork.
+    may see it. seconds: of the wall clock that physics, laws and sensing have
+    taken by now; sensing with add-ons. endless: whether the stop time does not end it, as in a
+    fork.
     """
 
     def __init__(
@@ -65,7 +67,7 @@ class Simulation(State):
         super().__init__(scenario, seed, storage, options)
         self.filename = whole(filename)
         self.watch: Callable[[Any], None] | None = None
-        self.engine_seconds = 0.0
+        self.seconds = {"physics": 0.0, "laws": 0.0, "sensing": 0.0}
         self.endless = False
         self._drawn = Scene()  # by the add-ons, at the end
         self._stepping = True  # until `begin` is done
@@ -143,6 +145,11 @@ class Simulation(State):
         return self._drives.cuts
 
     @property
+    def drives_at_once(self) -> bool:
+        """Whether its drives follow commands at once and exactly, so that they keep nothing."""
+        return self._delay.at_once and self._drives.exact
+
+    @property
     def calls(self) -> tuple[int, int]:
         """What changes with each control step, and with each law that is asked."""
         return self.iteration, self.laws.calls
@@ -192,13 +199,18 @@ class Simulation(State):
             raise InputError(f"the experiment is over: {self.over_message}")
         self._alone(self._control_step, command)
 
-    def follow(self, command: Any) -> Float:
+    def follow(self, command: Float) -> Float:
         """Do one control step under a command (m, n) that is known from before.
 
         The laws are asked all the same, so that they remember what they did then. Returns the
         commands (m, n) that the laws ask for now, limited by the drives.
         """
-        return self._alone(self._control_step, command, ask=True)
+        return self._alone(self._follow, command)
+
+    def _follow(self, command: Any) -> Float:
+        asked = self._saturate(self._decide(None))
+        self._carry_out(self._saturate(self.operator.command(command.copy())))
+        return asked
 
     def observe(self) -> None:
         """Call the add-ons and read the sensors, see `WorldView.observe`."""
@@ -219,12 +231,12 @@ class Simulation(State):
         if not self.over:
             self.over, self.over_message, self.broken_off = True, whole(str(why)), True
 
-    def _alone(self, act: Callable[..., T], *arguments: Any, **options: Any) -> T:
+    def _alone(self, act: Callable[..., T], *arguments: Any) -> T:
         """Act on the world. Refuse to from within such an act; an error ends the experiment."""
         self.refuse_within_step("step")
         self._stepping = True
         try:
-            return act(*arguments, **options)
+            return act(*arguments)
         except (LawError, DiskError) as error:
             if isinstance(error, LawError):
                 error.where = error.where or self.filename or None
@@ -254,52 +266,68 @@ class Simulation(State):
         """Do the control step that ends the experiment."""
         self._alone(self._control_step, None)
 
-    def _control_step(self, command: Any, *, ask: bool = False) -> Float:
-        """Do one pass of the loop of MARS's Algorithm 1; return the commands that laws ask for."""
+    def _control_step(self, command: Any) -> None:
+        """Do one pass of the loop of MARS's Algorithm 1."""
+        self._carry_out(self._saturate(self._decide(command)))
+
+    def decide(self, command: Any) -> Float:
+        """Do the first part of a control step, before the drives are asked; see `Abreast`."""
+        return self._alone(self._decide, command)
+
+    def carry_out(self, command: Float, twist: Float) -> None:
+        """Do the second part, under a command that drives can follow, and the twists (3, n)."""
+        self._alone(self._carry_out, command, twist)
+
+    def _decide(self, command: Any) -> Float:
+        """Observe, and return the commands (m, n) that are wanted."""
         self._observe()
         if self.watch is not None:
             self.watch(self.world)
+        start = perf_counter()
         if command is None or isinstance(command, Mapping):
-            wanted = asked = self.laws.commands(self._named(command or {}))
+            wanted = self.laws.commands(self._named(command or {}))
         else:
-            wanted = self._given(command)
-            asked = self.laws.commands() if ask else wanted
-        if ask:
-            asked = self._saturate(self.operator.command(asked))
-        self.command = locked(self._saturate(self.operator.command(wanted)))
+            wanted = team_command(command, self.command, partial(refuse, "World.step(command)"))
+        self.seconds["laws"] += perf_counter() - start
+        return self.operator.command(wanted)
+
+    def _carry_out(self, command: Float, twist: Float | None = None) -> None:
+        """Issue a command (m, n), and move under it, unless it ends here."""
+        self.command = locked(command)
         self._write_row()
         self._check_workspace()
+        self._check_contacts()
         if self.iteration >= self.scenario.last_iteration and not self.endless:
             self.stop(f"Time is over: {self.time:g} s")
         if self.over:
             self._hooks.call("on_stop", self.world)
             self.draw_addons(self._drawn)
         else:
-            self._drive()
+            self._drive(twist)
         if self._channel is not None:
             self._channel.transmit()
-        return asked
 
     def _observe(self) -> None:
         if self.observed != self.iteration:
-            self.observed = self.iteration
+            self.observed, start = self.iteration, perf_counter()
             if self._channel is not None:
                 self._channel.deliver()
             self.sensing.hide()
+            if len(self.contacts) and self._hooks.defines("on_contact"):
+                for contact in self.contacts[met_or_parted(self.contacts)]:
+                    self._hooks.call("on_contact", self.world, contact)
             self._hooks.call("on_step", self.world)
             self.sensing.step(self.iteration)
             self._hooks.call("on_sensed", self.world)
-
-    def _given(self, command: Any) -> Float:
-        return team_command(command, self.command, partial(_refuse, "World.step(command)"))
+            self.seconds["sensing"] += perf_counter() - start
 
     def _named(self, commands: Mapping[Any, Any]) -> dict[int, tuple[float, ...]]:
         """Return the commands that are given for some robots, by index."""
         found: dict[int, tuple[float, ...]] = {}
         for robot, command in commands.items():
             i = self.scenario.index_of("World.step", robot)
-            refuse = partial(_refuse, f"World.step: the command of {robot}")
-            found[i] = robot_command(command, self._inputs[i], refuse)
+            say = partial(refuse, f"World.step: the command of {robot}")
+            found[i] = robot_command(command, self._inputs[i], say)
         return found
 
     def _saturate(self, command: Float) -> Float:
@@ -329,22 +357,32 @@ class Simulation(State):
             name, (x, y) = self.scenario.robots[gone[0]].name, self.pose[:2, gone[0]]
             self.stop(f"Out of bounds: {name} left the workspace at ({x:.3g}, {y:.3g})")
 
-    def _drive(self) -> None:
-        """Move the robots for one sampling time under the commands in effect."""
+    def _check_contacts(self) -> None:
+        """End the experiment after a touch by which it ends."""
+        scenario = self.scenario
+        if scenario.stop_on is None or not len(self.contacts):
+            return
+        for contact in self.contacts[met(self.contacts)]:
+            a, b = int(contact["a"]), int(contact["b"])
+            if scenario.ends_by(a, b):
+                names = f"{scenario.body_name(a)} and {scenario.body_name(b)}"
+                self.stop(f"Contact: {names} touched at {contact['time']:.4g} s")
+                return
+
+    def _drive(self, twist: Float | None) -> None:
+        """Move the robots for one sampling time under the commands in effect, or twists (3, n)."""
         self.sensing.close()
         time = self.time
-        self._drives.draw()
         self.driven = []
         start = perf_counter()
-        for duration, command in self._delay.send(self.command):
-            for part, twist in self._drives.drive(command, duration):
-                self.driven.append((part, twist))
-                self.operator.drive(self.engine, twist, part, time)
-                time += part
+        for part, now in self._twists() if twist is None else [(self.sampling_time, twist)]:
+            self.driven.append((part, now))
+            self.operator.drive(self.engine, now, part, time)
+            time += part
         reached = self._drives.reached()
         if reached is not None:
             self.engine.ask(reached)
-        self.engine_seconds += perf_counter() - start
+        self.seconds["physics"] += perf_counter() - start
         self.contacts = locked(self.engine.take_contacts())
         self.recorder.write_contacts(self.contacts)
         self.take_poses()
@@ -352,6 +390,12 @@ class Simulation(State):
         self.iteration += 1
         if self.iteration % REST == 0:
             self.engine.rest()
+
+    def _twists(self) -> Iterator[tuple[float, Float]]:
+        """Yield the twists (3, n) that the drives ask for, each with the seconds that it holds."""
+        self._drives.draw()
+        for duration, command in self._delay.send(self.command):
+            yield from self._drives.drive(command, duration)
 
     # -- changes while it runs -------------------------------------------------------------------
 
@@ -388,8 +432,3 @@ class Simulation(State):
         self._take_engine()
         self.surroundings.renew()
         self._stepping = False
-
-
-def _refuse(given: str, message: str) -> NoReturn:
-    """Raise the error that a command given to `World.step` can't be used."""
-    raise InputError(f"{given} {message.replace('returned', 'was given', 1)}")

@@ -71,6 +71,10 @@ class Hooks:
             for hook in HOOKS
         }
 
+    def defines(self, hook: str) -> bool:
+        """Return whether any add-on has a hook."""
+        return bool(self._hooks[hook])
+
     def call(self, hook: str, *args: Any) -> None:
         """Call a hook of all add-ons. Raises LawError, which names the add-on that raised."""
         for key, method in self._hooks[hook]:

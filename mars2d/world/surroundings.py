@@ -13,6 +13,7 @@ from mars2d.addons.base import Addon, Color
 from mars2d.bodies.colors import OBSTACLE, prop_colors
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Point
+from mars2d.core.through import through
 from mars2d.core.usercode import called
 from mars2d.physics.space import Space
 from mars2d.sensors.base import NOTHING
@@ -41,30 +42,18 @@ class Around:
     def _space(self) -> Space:
         return self._world.engine.space
 
-    @property
-    def time(self) -> float:
-        """The simulated time, seconds."""
-        return self._world.time
-
-    @property
-    def sampling_time(self) -> float:
-        """The time between control steps, seconds."""
-        return self._world.scenario.sampling_time
-
-    @property
-    def pose(self) -> Float:
-        """The poses of all robots, (3, n)."""
-        return self._world.pose
-
-    @property
-    def prop_pose(self) -> Float:
-        """The poses of all props, (3, p)."""
-        return self._world.prop_pose
-
-    @property
-    def driven(self) -> Sequence[tuple[float, Float]]:
-        """The twists that the drives asked for in the last control step."""
-        return self._world.driven
+    time: float = through("_world.time")
+    """The simulated time, seconds."""
+    sampling_time: float = through("_world.sampling_time")
+    """The time between control steps, seconds."""
+    pose: Float = through("_world.pose")
+    """The poses of all robots, (3, n)."""
+    prop_pose: Float = through("_world.prop_pose")
+    """The poses of all props, (3, p)."""
+    driven: Sequence[tuple[float, Float]] = through("_world.driven")
+    """The twists that the drives asked for in the last control step."""
+    addons: Addons = through("_world.addons")
+    """The add-ons by name, as ``world.addons``."""
 
     # -- rays and points -------------------------------------------------------------------
 
@@ -129,11 +118,6 @@ class Around:
     @cached_property
     def _addons(self) -> tuple[Addon, ...]:
         return tuple(vars(self._world.addons).values())
-
-    @property
-    def addons(self) -> Addons:
-        """The add-ons by name, as ``world.addons``."""
-        return self._world.addons
 
     @property
     def beacons(self) -> Mapping[str, Point]:

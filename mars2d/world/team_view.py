@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
-from operator import attrgetter
 from typing import Any, NoReturn, cast
 
 import numpy as np
@@ -13,6 +12,7 @@ from numpy.typing import NDArray
 from mars2d.core.arithmetic import cosines_sines
 from mars2d.core.errors import LawError
 from mars2d.core.plane import Outline
+from mars2d.core.through import through
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import leaps_of
 from mars2d.record.recorder import History
@@ -27,10 +27,16 @@ from mars2d.world.views import PositionsView, PropView, RobotView, alone, unknow
 
 Float = NDArray[np.float64]
 
+MOST_SHOWN = 20
+"""The most bodies that a world is printed with."""
 
-def shown(name: str) -> Any:
-    """Return a property: what the simulation behind a view has by this name, with dots in it."""
-    return property(attrgetter(f"_simulation.{name}"))
+
+def printed(world: WorldView | TeamPositionsView, bodies: Sequence[RobotView | PropView]) -> str:
+    """Return the text of a world: the time, and a line for each of the first bodies."""
+    lines = [f"  {body}" for body in bodies[:MOST_SHOWN]]
+    if len(bodies) > MOST_SHOWN:
+        lines.append(f"  and {len(bodies) - MOST_SHOWN} more")
+    return "\n".join([f"<{type(world).__name__} at {world.time:g} s:", *lines]) + ">"
 
 
 class WorldView(Uncopied):
@@ -46,53 +52,56 @@ class WorldView(Uncopied):
     def __getattr__(self, name: str) -> NoReturn:
         unknown(self, "a world", name)
 
+    def __repr__(self) -> str:
+        return printed(self, [*self.robots, *self.props])
+
     # -- the experiment ------------------------------------------------------------------------
 
-    scenario: Scenario = shown("scenario")
+    scenario: Scenario = through("_simulation.scenario")
     """What is simulated now."""
-    seed: int = shown("seed")
+    seed: int = through("_simulation.seed")
     """The seed of all random streams."""
-    filename: str = shown("filename")
+    filename: str = through("_simulation.filename")
     """The experiment's file, or ""."""
-    sampling_time: float = shown("sampling_time")
+    sampling_time: float = through("_simulation.sampling_time")
     """The time from one command to the next, seconds."""
-    workspace: Outline | None = shown("scenario.workspace")
+    workspace: Outline | None = through("_simulation.scenario.workspace")
     """The polygon in which the robots move, or None."""
-    bounds: tuple[float, float, float, float] = shown("scenario.bounds")
+    bounds: tuple[float, float, float, float] = through("_simulation.scenario.bounds")
     """(xmin, xmax, ymin, ymax) of the workspace, metres."""
-    obstacles: tuple[Outline, ...] = shown("engine.obstacles")
+    obstacles: tuple[Outline, ...] = through("_simulation.engine.obstacles")
     """The outlines of all obstacles; obstacle k is -1 - k in contacts."""
 
     # -- this instant --------------------------------------------------------------------------
 
-    iteration: int = shown("iteration")
+    iteration: int = through("_simulation.iteration")
     """The number of control steps done."""
-    time: float = shown("time")
+    time: float = through("_simulation.time")
     """The simulated time, seconds: iteration x sampling time."""
-    over: bool = shown("over")
+    over: bool = through("_simulation.over")
     """Whether the experiment is over."""
-    over_message: str = shown("over_message")
+    over_message: str = through("_simulation.over_message")
     """Why the experiment is over."""
-    finished: bool = shown("finished")
+    finished: bool = through("_simulation.finished")
     """Whether the experiment is over, and was not broken off."""
-    pose: Float = shown("pose")
+    pose: Float = through("_simulation.pose")
     """The poses (3, n): x, y [m], theta [rad, not wrapped]. Read only; new at each step."""
-    position: Float = shown("position")
+    position: Float = through("_simulation.position")
     """The positions (2, n): x, y [m]. Read only; new at each step."""
-    velocity: Float = shown("velocity")
+    velocity: Float = through("_simulation.velocity")
     """The robots' velocities (3, n) at this instant: x', y' [m/s], theta' [rad/s]."""
-    prop_pose: Float = shown("prop_pose")
+    prop_pose: Float = through("_simulation.prop_pose")
     """The poses of the props' centres of mass (3, p): x, y [m], theta [rad]. Read only."""
-    prop_velocity: Float = shown("prop_velocity")
+    prop_velocity: Float = through("_simulation.prop_velocity")
     """The velocities of the props (3, p): x', y' [m/s], theta' [rad/s]."""
-    effort: Float = shown("effort")
+    effort: Float = through("_simulation.effort")
     """The largest share of its bounds that each drive used in the last step, (n,), 0 to 1.
 
     It is 0 for a robot that nothing holds or pushes. At 1 the wheels slip.
     """
-    command: Float = shown("command")
+    command: Float = through("_simulation.command")
     """The last command (m, n) that was issued, after saturation; zeros at first. Read only."""
-    contacts: NDArray[np.void] = shown("contacts")
+    contacts: NDArray[np.void] = through("_simulation.contacts")
     """The contacts since the last step, rows of dtype `mars2d.record.CONTACT`."""
 
     @property
@@ -109,15 +118,15 @@ class WorldView(Uncopied):
 
     # -- its parts -----------------------------------------------------------------------------
 
-    robots: list[RobotView] = shown("robots")
+    robots: list[RobotView] = through("_simulation.robots")
     """The robots, with everything known of them."""
-    props: tuple[PropView, ...] = shown("props")
+    props: tuple[PropView, ...] = through("_simulation.props")
     """The props."""
-    addons: Addons = shown("addons")
+    addons: Addons = through("_simulation.addons")
     """The add-ons by name: ``world.addons.map``."""
-    surroundings: Around = shown("surroundings")
+    surroundings: Around = through("_simulation.surroundings")
     """Answers sensors and add-ons: rays, distances, lines of sight, beacons."""
-    rng: np.random.Generator = shown("rng")
+    rng: np.random.Generator = through("_simulation.rng")
     """The random stream of the team's law."""
 
     def stream(self, name: str) -> np.random.Generator:
@@ -126,9 +135,9 @@ class WorldView(Uncopied):
 
     # -- the run so far ------------------------------------------------------------------------
 
-    history: History = shown("history")
+    history: History = through("_simulation.history")
     """The rows so far."""
-    record: Record = shown("record")
+    record: Record = through("_simulation.record")
     """The record so far."""
 
     @property
@@ -240,6 +249,9 @@ class TeamPositionsView:
     workspace, bounds, obstacles = WorldView.workspace, WorldView.bounds, WorldView.obstacles
     command, effort = WorldView.command, WorldView.effort
     addons, rng, stop = WorldView.addons, WorldView.rng, WorldView.stop
+
+    def __repr__(self) -> str:
+        return printed(self, self.robots)
 
     @property
     def position(self) -> Float:

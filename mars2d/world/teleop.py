@@ -1,10 +1,9 @@
-"""Driving by hand: from a stick to the command of a drive."""
+"""Driving by hand: a stick that follows the keys; `Drive.steered` returns what it asks for."""
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-from mars2d.bodies.drives.base import Drive
 from mars2d.core.arithmetic import norm
 
 RISE, FALL = 4.0, 8.0
@@ -25,16 +24,6 @@ class Stick(NamedTuple):
         """Return the same direction with a deflection of at most `most`."""
         share = most / max(norm(self.across, self.ahead), most)
         return Stick(share * self.across, share * self.ahead, self.turn)
-
-
-def command_of(drive: Drive, stick: Stick) -> tuple[float, ...]:
-    """Return the command of a drive that a stick asks for.
-
-    A drive that moves in the world's frame goes where the stick points to in the picture. Others
-    go ahead or back by it, and turn: a robot of two wheels at 1.5 rad/s, or as quickly as its
-    wheels allow, for which it goes slower as far as needed; a car steers.
-    """
-    return drive.steered(*stick)
 
 
 def ramped(stick: Stick, wanted: Stick, duration: float) -> Stick:

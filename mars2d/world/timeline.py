@@ -19,6 +19,7 @@ from mars2d.scenario.changes import alike, check_same, merged
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.loop import open_world, watch_by
+from mars2d.world.moments import moments_of
 from mars2d.world.past import Past, Progress, Track
 from mars2d.world.record import Record
 from mars2d.world.world import Watcher, World
@@ -54,15 +55,6 @@ class Timeline:
     one left longest ago first. remark: a warning about the last way back, or empty.
     """
 
-    world: World
-    experiment: Experiment
-    _past: Past
-    branches: list[World]
-    row: int
-    _lines: dict[World, _Line]
-    _errors: dict[World, LawError]
-    _count: int
-
     def __init__(
         self,
         experiment: Experiment,
@@ -93,11 +85,11 @@ class Timeline:
         self.world = open_world(experiment, self._watchers)
         self.experiment = experiment
         self._past = Past(experiment)
-        self.branches = []
+        self.branches: list[World] = []
         self.row = 0
         self.remark = ""
         self._lines = {self.world: _Line(((0, 0),))}
-        self._errors = {}
+        self._errors: dict[World, LawError] = {}
         self._count = 0  # of branches that there have been
         self._seen: tuple[World, int, Record] | None = None
         self._write()
@@ -254,11 +246,21 @@ class Timeline:
         world = self.world
         if self.needs_way_back:
             world = self._past.world_at(self._track, self.row, progress)
+            world.operator.let_go()
         if options_of(world) != self.experiment.options:  # they were set later than this row
             self._change_to(self.experiment, world)
         act(world)
         if world is not self.world:
             self._adopt(world)
+
+    def within(self, progress: Progress = lambda _: True) -> list[Frame]:
+        """Return the moments within the control step that follows the present row.
+
+        See `mars2d.world.moments`. Nothing is recorded. Raises InputError as `change` does.
+        """
+        world, known = self._past.world_at(self._track, self.row, progress), self.row < self.newest
+        command = self.world.history.command[self.row] if known else None
+        return moments_of(world, self.frame, command)
 
     def undo(self, progress: Progress = lambda _: True) -> Intervention:
         """Go on from before the last thing that was done by hand; return that.
@@ -276,6 +278,7 @@ class Timeline:
         self._past.forget_after(row)
         experiment, past = self._with_options(options_of(self.world, done))
         world = past.world_at(replace(self._track, done=done), row, progress)
+        world.operator.let_go()
         self.row = row
         self.experiment, self._past = experiment, past
         self._adopt(world)
@@ -348,6 +351,7 @@ class Timeline:
         if not ended:
             track = Track(self.world, NEVER)
             world = past.world_at(track, self.row, progress, past.opened(experiment))
+            world.operator.let_go()
             self._change_to(experiment, world)
         self.experiment, self._past = experiment, past
         self._lines = {w: replace(line, since=NEVER) for w, line in self._lines.items()}
@@ -390,11 +394,6 @@ class Timeline:
     def others(self) -> list[World]:
         """The worlds that can be shown: those of other branches, then those of earlier runs."""
         return [*self.branches, *(run["world"] for run in self._earlier)]
-
-    def other_branch(self) -> None:
-        """Go to the branch that was left longest ago; without one, to an earlier run."""
-        if self.others:
-            self.show(self.others[0])
 
     def show(self, other: World) -> None:
         """Go to one of `others`, at the same row if it has it."""

@@ -13,8 +13,10 @@ from numpy.typing import NDArray
 from mars2d.bodies.drives.base import Drive
 from mars2d.core.arrays import locked
 from mars2d.core.errors import CERTAIN, LawError, UnknownNameError, likely, nearest, shown
+from mars2d.core.through import through
 from mars2d.core.words import instead
 from mars2d.record.message import Message
+from mars2d.scenario.robot import Robot
 from mars2d.sensors.sensing import Sense
 
 if TYPE_CHECKING:
@@ -111,6 +113,18 @@ class _Body:
 
     def __getattr__(self, name: str) -> NoReturn:
         unknown(self, self._kind, name, *self._more)
+
+    def __repr__(self) -> str:
+        kind, name = self._kind.partition(" ")[2], getattr(self, "name", "")
+        known = (getattr(type(self), place, None) for place in ("pose", "position"))
+        seen = next((p.fget(self) for p in known if type(p) is property and p.fget), ())
+        place = f" at ({', '.join(f'{number:.4g}' for number in seen)})" if len(seen) else ""
+        return f"<{kind} {name!r}{place}{self._readings}>"
+
+    @property
+    def _readings(self) -> str:
+        """What its sensors read, in words."""
+        return ""
 
     def __setattr__(self, name: str, value: Any) -> None:
         if not (name.startswith("_") or name in self._more):
@@ -212,34 +226,28 @@ class RobotView(_Body):
         self._listed: tuple[Sequence[int], tuple[Neighbour, ...]] = ((), ())
 
     @property
-    def name(self) -> str:
-        """The robot's name."""
-        return str(self._world.scenario.robots[self._index].name)
+    def _robot(self) -> Robot:
+        return self._world.scenario.robots[self._index]
 
-    @property
-    def drive(self) -> Drive:
-        """Its drive, with its limits."""
-        return self._world.scenario.robots[self._index].drive
-
-    @property
-    def radius(self) -> float:
-        """The radius of its chassis, or of a circle round it, metres."""
-        return self._world.scenario.robots[self._index].radius
+    name: str = through("_robot.name")
+    """The robot's name."""
+    drive: Drive = through("_robot.drive")
+    """Its drive, with its limits."""
+    radius: float = through("_robot.radius")
+    """The radius of its chassis, or of a circle round it, metres."""
+    time: float = through("_world.time")
+    """The simulated time, seconds."""
+    sampling_time: float = through("_world.sampling_time")
+    """The time from one command to the next, seconds."""
+    rng: np.random.Generator = through("_mind.rng")
+    """The robot's own random stream."""
+    world: Any = through("_world.view")
+    """The whole world: all poses, props, contacts, obstacles, add-ons."""
 
     @property
     def diameter(self) -> float:
         """Twice the radius, metres."""
         return 2 * self.radius
-
-    @property
-    def time(self) -> float:
-        """The simulated time, seconds."""
-        return self._world.time
-
-    @property
-    def sampling_time(self) -> float:
-        """The time from one command to the next, seconds."""
-        return self._world.sampling_time
 
     @property
     def command(self) -> Float:
@@ -250,11 +258,6 @@ class RobotView(_Body):
     def effort(self) -> float:
         """The largest share of its bounds that its drive used in the last step, 0 to 1: slip."""
         return float(self._world.effort[self._index])
-
-    @property
-    def rng(self) -> np.random.Generator:
-        """The robot's own random stream."""
-        return self._mind.rng
 
     def send(self, content: Any, to: Any = None) -> None:
         """Send a message to other robots, by the add-on Communication.
@@ -269,11 +272,6 @@ class RobotView(_Body):
     def inbox(self) -> tuple[Message, ...]:
         """The messages that have arrived for this control step, by sender."""
         return self._world.channel.inbox(self._index)
-
-    @property
-    def world(self) -> Any:
-        """The whole world: all poses, props, contacts, obstacles, add-ons."""
-        return self._world.view
 
     @property
     def position(self) -> Float:
@@ -302,6 +300,10 @@ class RobotView(_Body):
         if index not in self._found:
             self._found[index] = self._neighbour(self._world, index, self._index)
         return self._found[index]
+
+    @property
+    def _readings(self) -> str:
+        return "".join(f", {name} = {shown(value)}" for name, value in vars(self.sense).items())
 
     @property
     def contacts(self) -> NDArray[np.void]:

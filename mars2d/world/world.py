@@ -7,13 +7,14 @@ from typing import Any, cast
 
 from mars2d.core.description import wrong
 from mars2d.core.streams import check_seed
+from mars2d.core.through import through
 from mars2d.record.columns import Column, Storage
 from mars2d.record.energy import Energy, Momentum
 from mars2d.record.recorder import Recorder
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.operator import Operator
 from mars2d.world.simulation import Simulation
-from mars2d.world.team_view import TeamPositionsView, WorldView, shown
+from mars2d.world.team_view import TeamPositionsView, WorldView
 
 Watcher = Callable[["World"], None]
 """A function that is called with the world at each control step."""
@@ -52,19 +53,15 @@ class World(WorldView):
         options: Mapping[str, Any] | None = None,
         record: bool = True,
     ) -> None:
+        if not isinstance(scenario, Scenario):
+            raise wrong("World.scenario", scenario, "a Scenario")
         kept = storage if record else None
-        super().__init__(
-            Simulation(_checked(scenario), check_seed(seed), filename, kept, dict(options or {}))
-        )
+        super().__init__(Simulation(scenario, check_seed(seed), filename, kept, options or {}))
         self.watch = watch
-        self._begin(control)
-
-    def _begin(self, control: Callable[[World], Any] | None) -> None:
-        simulation = self._simulation
-        view = WorldView(simulation)
-        positions = simulation.scenario.sees == "positions"
-        team_view = TeamPositionsView(simulation) if positions else view
-        simulation.begin(self, view, team_view, control)
+        view = WorldView(self._simulation)
+        positions = self.scenario.sees == "positions"
+        team_view = TeamPositionsView(self._simulation) if positions else view
+        self._simulation.begin(self, view, team_view, control)
 
     def reset(self, seed: int | None = None, scenario: Scenario | None = None) -> None:
         """Start again, as a new World would: the run after it is the same to the bit.
@@ -75,20 +72,20 @@ class World(WorldView):
         """
         before = self._simulation
         before.refuse_within_step("reset")
-        self._simulation = Simulation(
-            before.declared if scenario is None else _checked(scenario),
-            before.seed if seed is None else check_seed(seed),
-            before.filename,
-            before.storage,
-            before.recorder.options,
+        World.__init__(
+            self,
+            before.declared if scenario is None else scenario,
+            before.control,
+            before.seed if seed is None else seed,
+            filename=before.filename,
+            watch=before.watch,
+            storage=before.storage or Column,
+            options=before.recorder.options,
+            record=before.storage is not None,
         )
-        self.watch = before.watch
-        self._begin(before.control)
 
-    @property
-    def simulation(self) -> Simulation:
-        """The machinery behind it, for programs that rebuild or follow a run."""
-        return self._simulation
+    simulation: Simulation = through("_simulation")
+    """The machinery behind it, for programs that rebuild or follow a run."""
 
     @property
     def watch(self) -> Watcher | None:
@@ -99,15 +96,15 @@ class World(WorldView):
     def watch(self, watch: Watcher | None) -> None:
         self._simulation.watch = watch
 
-    control: Callable[[World], Any] | None = shown("control")
+    control: Callable[[World], Any] | None = through("_simulation.control")
     """The law of the team."""
-    energy: Energy = shown("energy")
+    energy: Energy = through("_simulation.energy")
     """The kinetic energies of robots and props, and the work since the start, J."""
-    momentum: Momentum = shown("momentum")
+    momentum: Momentum = through("_simulation.momentum")
     """The momenta of robots and props, N s, and the angular one of all, N m s."""
-    recorder: Recorder = shown("recorder")
+    recorder: Recorder = through("_simulation.recorder")
     """Writes the rows of the record."""
-    operator: Operator = shown("operator")
+    operator: Operator = through("_simulation.operator")
     """Drives robots, puts bodies elsewhere, pulls and holds them."""
 
     def change(
@@ -141,9 +138,3 @@ class World(WorldView):
         from mars2d.output.pages.notebook import world_svg
 
         return world_svg(self)
-
-
-def _checked(scenario: Scenario) -> Scenario:
-    if not isinstance(scenario, Scenario):
-        raise wrong("World.scenario", scenario, "a Scenario")
-    return scenario

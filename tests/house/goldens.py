@@ -1,6 +1,6 @@
 """The golden paths of the examples: poses that a run comes near to on any platform.
 
-`python docs/make_example.py NAME` makes one.
+`python docs/make/example.py NAME` makes one.
 
 Another platform rounds the last digits of sines and sums differently, and what is chaotic makes
 much of it. So each example is also run from starts that are `NUDGE` beside its own, several orders

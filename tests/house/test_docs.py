@@ -54,12 +54,7 @@ ROOT = Path(__file__).parents[2]
 SENSORS = sorted((ROOT / "docs" / "sensors").glob("*.md"))
 EXPERIMENTS = sorted((ROOT / "docs" / "experiments").glob("*.md"))
 PURSUIT = sorted((ROOT / "docs" / "pursuit").glob("*.md"))
-DOORS = sorted((ROOT / "docs" / "doors").glob("*.md"))
-LEARNING = sorted((ROOT / "docs" / "learning").glob("*.md"))
-DOCUMENTS = [
-    ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md")), *SENSORS, *EXPERIMENTS, *PURSUIT,
-    *LEARNING, *DOORS,
-]  # fmt: skip
+DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 EVERYTHING = [*DOCUMENTS, ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md"]
 
 SET_UP = ["pip install . && mars2d demo random_walk", 'pip install ".[test]" && pytest -n auto']
@@ -75,7 +70,7 @@ MEASURED = {
     "lion_and_man_bodies.png", "encirclement_bodies.png", "learning_pursuit.png",
     "learning_push.png", "learning_sumo.png", "learning_coverage.png",
 }  # fmt: skip
-"""Pictures that no block makes: `benchmarks/growth.py` and `docs/make_pursuit.py` take minutes, a
+"""Pictures that no block makes: `benchmarks/growth.py` and `docs/make/pursuit.py` take minutes, a
 page needs a browser, a window somebody at the keys."""
 
 LANGUAGES = {"python", "toml", "console", "text", "matlab", ""}
@@ -226,7 +221,7 @@ def test_a_document_does_what_it_says(document, tmp_path, monkeypatch):
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0}, raising=False)
     Reader(document).read()
     if document in SENSORS:
-        return  # their pictures are made by docs/make_sensors.py
+        return  # their pictures are made by docs/make/sensors.py
     for name in set(pictures(document)) - MEASURED:
         assert (tmp_path / name).is_file(), f"{name} was not made"
         if os.environ.get("MARS2D_PICTURES") == "new":
@@ -273,19 +268,20 @@ def test_links_lead_somewhere(document):
             assert anchor in anchors(goal), f"{document.name}: {target}"
 
 
-def test_each_document_is_in_the_index():
-    index = (ROOT / "docs" / "index.md").read_text(encoding="utf-8")
-    for document in (ROOT / "docs").glob("*.md"):
-        assert document.name == "index.md" or f"({document.name})" in index
+def test_each_document_is_on_a_shelf_of_the_site():
+    shelves = (ROOT / "mkdocs.yml").read_text(encoding="utf-8").partition("nav:")[2]
+    for document in DOCUMENTS[1:]:
+        name = document.relative_to(ROOT / "docs").as_posix()
+        assert re.search(rf"[ ]{re.escape(name)}$", shelves, flags=re.M), name
 
 
 @each_case("name", sorted(members("sensors")))
 def test_a_sensors_page_has_its_picture_and_the_table_of_its_fields(name, monkeypatch):
-    monkeypatch.syspath_prepend(ROOT / "docs")
-    made = importlib.import_module("make_sensors")
+    monkeypatch.syspath_prepend(ROOT / "docs" / "make")
+    made = importlib.import_module("sensors")
     kind = getattr(sensors, name)
     text = made.page(kind).read_text(encoding="utf-8")
-    assert text == made.with_table(text, kind), "run: python docs/make_sensors.py"
+    assert text == made.with_table(text, kind), "run: python docs/make/sensors.py"
     assert kind in made.SCENES
     assert pictures(made.page(kind)) == [f"sensor_{snake_case(name)}.png"]
     titles = re.findall(r"^## (.+)$", prose(made.page(kind)), flags=re.M)
@@ -383,10 +379,10 @@ def test_the_keys_in_its_page_are_those_of_the_window():
 
 
 def test_the_table_of_fields_is_up_to_date():
-    path = ROOT / "docs" / "make_fields.py"
+    path = ROOT / "docs" / "make" / "fields.py"
     made = module(path).document()
     assert made == (ROOT / "docs" / "fields.md").read_text(encoding="utf-8"), (
-        "run: python docs/make_fields.py"
+        "run: python docs/make/fields.py"
     )
 
 

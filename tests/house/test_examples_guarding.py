@@ -26,7 +26,7 @@ def outcome(name, seed=0, **options):
 @pytest.mark.parametrize(
     ("name", "options"),
     [
-        ("guard_the_line", {"seed": 3}),
+        ("guard_the_line", {"mu": 0.7, "seed": 3}),
         ("guard_the_line", {"mu": 0.5, "seed": 1}),
         ("guard_the_line", {"mu": 0.6, "seed": 5}),
         ("capture_the_flag", {"seed": 4}),
@@ -41,6 +41,15 @@ def outcome(name, seed=0, **options):
         ("escort", {"mu": 0.56, "seed": 4}),
         ("selfish_herd", {"number": 24, "seed": 5}),
         ("selfish_herd", {"number": 2, "seed": 6}),
+        ("pinned", {"strength": 1.18}),
+        ("pinned", {"strength": 1.27}),
+        (
+            "pinned",
+            {"strength": 1.38, "hunter": "hunters/walls.py", "evader": "evaders/between.py"},
+        ),
+        ("doorway", {"strength": 1.9}),
+        ("doorway", {"strength": 2.1}),
+        ("doorway", {"strength": 0.9, "escort": "escorts/alone.py"}),
     ],
 )
 def test_a_game_agrees_with_its_formula(name, options):
@@ -82,7 +91,7 @@ def test_who_leaves_the_best_way_loses_by_it():
         heights = {}
         for guard in ("lowest", "straight", "shadow"):
             for attacker in ("lowest", "straight", "aside"):
-                record, _ = outcome("guard_the_line", seed, guard=guard, attacker=attacker)
+                record, _ = outcome("guard_the_line", seed, mu=0.7, guard=guard, attacker=attacker)
                 heights[guard, attacker] = record.pose[-1, 1, 1]
         value = heights["lowest", "lowest"]
         assert all(h >= value - 0.05 for (g, _), h in heights.items() if g == "lowest")
@@ -94,15 +103,24 @@ def test_more_than_the_matching_reach_the_flag_only_past_worse_guards():
         guard: [outcome("capture_the_flag", seed, guard=guard)[1].winner for seed in range(4)]
         for guard in ("match", "nearest")
     }
-    assert winners["match"] == ["guard"] * 4
-    assert winners["nearest"].count("attacker") >= 3
+    assert winners["match"].count("guard") > winners["nearest"].count("guard") == 0
+
+
+def test_either_role_wins_the_games_at_their_defaults():
+    """By chance alone one of two equals wins all of 12 games once in 2048 times."""
+    for name in ("escort", "pinned", "doorway", "round_a_pillar", "guard_the_line"):
+        winners = {played(name, seed)[1].winner for seed in range(8)}
+        assert len(winners) == 2, name
 
 
 # -- round obstacles ----------------------------------------------------------------------------
 
 
 def test_the_time_round_a_pillar_does_not_depend_on_which_law_runs_away_on_the_circle():
-    times = [outcome("round_a_pillar", 1, evader=e)[1].capture_time for e in ("opposite", "round")]
+    times = [
+        outcome("round_a_pillar", 1, mu=1.25, evader=e)[1].capture_time
+        for e in ("opposite", "round")
+    ]
     assert times[0] == pytest.approx(times[1], abs=0.3)
 
 
@@ -128,7 +146,7 @@ def test_the_shortest_way_round_a_pillar_is_that_of_a_fine_polygon():
 
 
 def test_the_hider_is_seen_where_the_tangents_say():
-    record, _ = outcome("hide_and_seek", 2)
+    record, _ = outcome("hide_and_seek", 2, mu=1.4)
     (x, y), (hx, hy) = record.pose[-1, :2].T
     angle = abs(np.angle(complex(hx, hy) / complex(x, y)))
     assert angle == pytest.approx(acos(1.5 / hypot(x, y)) + acos(1.5 / hypot(hx, hy)), abs=0.01)

@@ -9,7 +9,9 @@ import pytest
 import shapely
 from scipy.optimize import brentq, minimize
 
-from mars2d.addons import Map
+import mars2d
+from mars2d import Robot, Scenario
+from mars2d.addons import Map, PotentialField, Waypoints
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment, open_module
 from tests.worlds import predicted, solution
@@ -104,6 +106,22 @@ def test_the_numbers_of_the_model_answer_on_walls_and_doors(planned):
     assert record.pose[-1, 0, 2] == pytest.approx(22 - 0.2 - rho, abs=0.003)
     door = [0.5 + field.force((26.5, y), (26.5, -100))[1] for y in np.linspace(8.7, 9.5, 400)]
     assert max(door) == pytest.approx(0.2263, abs=1e-3)
+
+
+def test_two_robots_head_on_in_a_corridor_repel_each_other_and_pass_if_there_is_room():
+    law = open_module("path_planning").control
+    for width, reached in ((1.2, (0, 0)), (1.6, (1, 1))):
+        walls = [[(-5, side * width / 2), (5, side * width / 2)] for side in (-1, 1)]
+        robots = [Robot(pose=(-4, 0, 0), diameter=0.4), Robot(pose=(4, 0, pi), diameter=0.4)]
+        ways = Waypoints([[(4, 0)], [(-4, 0)]])
+        addons = [Map(walls), ways, PotentialField()]
+        scenario = Scenario(robots=robots, workspace=None, stop_time=60, addons=addons)
+        record = mars2d.run(scenario, control=law)
+        assert record.collisions == 0
+        assert ways.of(record.frame(-1)) == reached
+        if reached == (0, 0):
+            rho = brentq(lambda r: 0.01 * (1 / r - 1 / 0.6) / r**2 - 0.5, 0.05, 0.6)
+            assert np.diff(record.pose[-1, 0]) == pytest.approx(rho + 0.4, abs=5e-4)
 
 
 def test_the_model_answer_brings_the_third_by_a_plan_that_is_hardly_longer():

@@ -7,13 +7,16 @@ from __future__ import annotations
 
 import ast
 import re
+import shlex
 from dataclasses import MISSING, fields
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
-from mars2d import Animation, Holonomic, Robot, Scenario, Unicycle
+from mars2d import Animation, Holonomic, InputError, Robot, Scenario, Unicycle
+from mars2d.scenario.experiment import open_experiment
 from tests.cases import each_case
 
 PAGE = Path(__file__).parents[2] / "docs" / "from_mars.md"
@@ -112,10 +115,63 @@ def test_the_defaults_that_table_1_states_are_those_here():
     assert look.playback_speed == 1
 
 
-def test_the_turns_of_algorithm_2_are_not_clipped_but_would_be_with_marss_wheels():
-    import numpy as np
-
+def test_one_command_of_the_page_restores_all_of_marss_values():
+    (command,) = re.findall(r"^mars2d run random_walk (.*)$", PAGE.read_text("utf-8"), flags=re.M)
+    arguments = [word for word in shlex.split(command) if "=" in word]
+    settings = {name: ast.literal_eval(value) for name, value in (a.split("=") for a in arguments)}
+    here = open_experiment("random_walk", settings).scenario
+    robot = here.robots[1]
+    marss = {row[0]: row[3].strip("()") for row in rows()}
+    found = {
+        "Sampling_time": here.sampling_time,
+        "Robot.Max_linear_speed": robot.drive.max_linear_speed,
+        "Robot.Wheels_semiaxis_length": robot.drive.wheel_semiaxis,
+        "Robot.Diameter": robot.diameter,
+        "Robot.Distance_center_barycenter": robot.center_offset,
+    }
+    assert found == {name: float(marss[name]) for name in found}
+    assert (here.workspace, marss["Workspace"]) == (None, "open")
+    assert len(settings) == 6
+    # Algorithm 2 turns at up to 3 pi / 2 rad/s: MARS's wheels cut this at 4, those here do not
     fastest = np.array([[0.0], [3 * np.pi / 2]])
+    assert robot.drive.saturate(fastest)[1, 0] == pytest.approx(4.0)
     assert np.array_equal(Unicycle().saturate(fastest), fastest)
-    marss = Unicycle(max_linear_speed=0.2, wheel_semiaxis=0.05)
-    assert marss.saturate(fastest)[1, 0] == pytest.approx(4.0)
+
+
+def test_what_stands_beside_marss_words_works_as_written():
+    text, matrix = PAGE.read_text(encoding="utf-8"), np.array([(1, 3, 0), (9, 7, np.pi)]).T
+    names = {"Robot": Robot, "Animation": Animation, "P": matrix, "pi": np.pi}
+
+    def made(code: str) -> Any:
+        assert f"{code}`" in text
+        return eval(code, names)
+
+    for code in ("[Robot(pose=(1, 3, 0)), Robot(pose=(9, 7, pi))]", "[Robot(pose=p) for p in P.T]"):
+        scenario = Scenario(robots=made(code), workspace=None)
+        assert np.array_equal(scenario.initial_pose, matrix)
+    red, blue = made('Animation(base_colors=["r", "b"])').base_colors
+    assert (red, blue) == (made('Robot(color="r")').color, Robot(color="b").color)
+    square = [(0, 0), (0, 1), (1, 1), (1, 0)]
+    assert Scenario(workspace=[*square, (0, 0)]).workspace == Scenario(workspace=square).workspace
+
+
+@each_case(
+    ("make", "hint"),
+    [
+        (lambda: Scenario(Initial_pose=[]), "[Robot(pose=p) for p in P.T]"),
+        (lambda: Scenario(non_holonomic=True), "Robot(drive=Holonomic())"),
+        (lambda: Animation(Enable=False), "speed=1"),
+        (lambda: Animation(Colors="rb"), "base_colors=[...]"),
+        (lambda: Robot(wheels_semiaxis_length=0.05), "wheel_semiaxis"),
+        (lambda: Robot(distance_center_barycenter=0.05), "center_offset"),
+    ],
+)
+def test_a_word_of_mars_is_answered_with_the_one_here(make, hint):
+    with pytest.raises(InputError, match=re.escape(hint)):
+        make()
+
+
+def test_the_outline_in_matlab_closes_what_it_opens():
+    (block,) = re.findall(r"```matlab\n(.*?)```", PAGE.read_text(encoding="utf-8"), flags=re.S)
+    opened = re.findall(r"^ *(?:if|for)\b", block, flags=re.M)
+    assert len(opened) == len(re.findall(r"^ *end$", block, flags=re.M)) == 4

@@ -1,6 +1,7 @@
 """Mistakes that newcomers make, each really made, and the words that the answer must have."""
 
 import re
+from pathlib import Path
 
 import pytest
 
@@ -10,9 +11,9 @@ from tests.cases import each_case
 HEAD = """\
 import numpy as np
 from mars2d import *
-from mars2d.addons import Map
+from mars2d.addons import Addon, Map
 from mars2d.bodies import Ball, Box, Puck
-from mars2d.sensors import Proximity, RangeFinder
+from mars2d.sensors import Ground, Proximity, RangeFinder
 
 """
 
@@ -30,7 +31,7 @@ ROBOTS = [
     ("sensors=[Proximity]", "write Proximity(...)"),
     ("drive=Unicycle", "write Unicycle(...)"),
     ("pose=(0, 0, '90')", "expected a pose (x, y, theta) in metres and radians"),
-    ("radius=0.1, diameter=0.2", "Robot has both radius and diameter: give one of them"),
+    ("radius=0.1", "write diameter=2 * radius"),
     ("drive=Unicycle(max_v=1)", "write max_linear_speed=..."),
     ("drive=Unicycle(max_omega=1)", "max_angular_speed=..."),
     ("drive=Unicycle(1)", "takes its fields by name, as in Unicycle(max_linear_speed=...)"),
@@ -52,10 +53,14 @@ SCENARIOS = [
     ("robots=[(0, 0, 0)]", "expected a Robot, such as Robot(pose=(0, 0, 0))"),
     ("robots=[Robot(), Robot(pose=(0.1, 0, 0))]", "they start 0.2 m inside each other"),
     ("addons=[Map([(0, 0), (1, 1)])]", "put one more pair of brackets round it"),
+    ("robots=[Robot()], props=[Box(pose=(1, 0, 0), mass=99)]",
+     "with 10 kg the drives, 5 N, push it on a ground_friction of less than 0.051 only"),
     ("neighbors=Within(3)", "did you mean 'neighbours'?"),
     ("robots=[Robot(mass=20), Robot(pose=(1, 0, 0), mass=1)]",
      "set the mass of robot0 to 10 kg or less, or that of robot1 to 2 kg or more"),
     ("on_exit='bounce'", "expected one of 'stop', 'wall', 'ignore'"),
+    ("on_exit='wrap'", "takes distances modulo the side"),
+    ("periodic=True", "takes distances modulo the side"),
     ("physics='real'", "expected one of 'contact', 'stop', 'ideal'"),
     ("workspace=[(0, 0), (1, 1), (0, 1), (1, 0)]", "list its vertices in order"),
 ]  # fmt: skip
@@ -82,6 +87,13 @@ FILES = [
     ("scenario = Scenario(robots=2", "line 7: '(' was never closed"),
     ("def controll(world): return 0, 0", "must be called control: rename controll(world)"),
     ("def update(world): return 0, 0", "must be called control: rename update(world)"),
+    ("def control(robot): return 0, 0", "control(robot): it is called with the world"),
+    ("def go(world): return 0, 0\nred = Robot(controller=go)", "it is called with a robot"),
+    ("def go(robot): return 0, 0\nred = Robot(controller=go())",
+     "argument: 'robot'; a law is given without brackets: go"),
+    ("def go(robot=0): return 0, 0\nred = Robot(controller=go())", "without brackets ()"),
+    ("class Lamps(Addon):\n    def on_end(self, world): pass", "write on_stop(self, world)"),
+    ("open('way.csv')", "relative names begin in the current folder, /"),
     ("def go(robot): return 0, 0", "give go(robot) to a robot: Robot(controller=go)"),
 ]  # fmt: skip
 """Lines of an experiment's file."""
@@ -96,13 +108,23 @@ LAWS = [
     ("robot.command = (1, 0)", "a robot's command can't be set"),
     ("return robot.x, 0", "write robot.pose[0]"),
     ("return robot.position[2], 0", "a position is (x, y); the angle is pose[2]"),
-    ("return robot.pose[3], 0", "a pose is (x, y, theta), from 0 to 2"),
+    ("return robot.pose[3], 0", "or pose[0] to pose[2]"),
     ("x, y = robot.pose\nreturn x, y", "a pose is three numbers: x, y, theta = robot.pose"),
     ("return robot.pose(), 0", "it is an array: write it without the brackets ()"),
     ("return robot.speed, 0", "write robot.velocity: x', y' [m/s], theta' [rad/s]"),
     ("return robot.sense('proximity'), 0", "write robot.sense.proximity"),
     ("return robot.sense['proximity'], 0", "write robot.sense.proximity"),
-    ("return robot.sense.lidar, 0", "red has no sensor 'lidar'; known: proximity"),
+    ("return robot.sense.lidar, 0", "red has no sensor 'lidar'; known: ground, proximity"),
+    ("if robot.contacts: return 0, 0\nreturn 1, 0", "write len(robot.contacts) > 0"),
+    ("if robot.sense.ground < 0.5:\n    return 0, 0\nreturn 1, 0",
+     "compare one of them, as robot.sense.ground[0] < 0.5"),
+    ("if robot.pose[:2] == (2, 0): return 0, 0\nreturn 1, 0",
+     "np.linalg.norm(np.subtract(robot.pose[:2], (2, 0))) < 0.01"),
+    ("return robot.world.robots[2].pose[0], 0",
+     "there are robot.world.robots[0] to robot.world.robots[0]"),
+    ("return robot.neighbours[0].pose[0], 0", "robot.neighbours is empty"),
+    ("return 0.2, 90 - robot.pose[2]", "if degrees are meant, write np.radians(88.5)"),
+    ("return 3 - robot.pose[0], 2 - robot.pose[1]", "they mean v [m/s] and omega [rad/s]"),
     ("if robot.sense.proximity < 0.5: return 0, 0\nreturn 1, 0",
      "line 9: robot.sense.proximity is True or False, and is compared with a number"),
     ("near = robot.sense.proximity\nif near > 1: return 0, 0\nreturn 1, 0",
@@ -122,6 +144,24 @@ LAWS = [
     ("return 9, 0", "of the commands of red were cut by the drive's bounds"),
 ]  # fmt: skip
 """Bodies of a robot's law."""
+
+FILES_OF_SCENARIOS = [
+    ("diameter = 0,3", "line 4, robots[1]", "decimals have a point: 0.5"),
+    ("pose = [0,5, 0,5, 0]", "line 4, robots[1]", "decimals have a point: 0.5"),
+    ("pose = [0, 0, pi/2]", "line 4, robots[1]", "pi/2 is 1.57079633"),
+    ("diameter = 2*0.15", "line 4, robots[1]", "TOML does not calculate"),
+    ("pose = [0, 0, 90 deg]", "line 4, robots[1]", "90 degrees are 1.5708"),
+    ("pose = (0, 0, 0)", "line 4, robots[1]", "a list has brackets: [1, 2]"),
+    ("color = null", "line 4, robots[1]", "what is None is left out, or is 'none'"),
+    ("color = red", "line 4, robots[1]", "text stands in quotes: 'red'"),
+    ("color: 'red'", "line 4, robots[1]", "a field is NAME = VALUE"),
+    ("diameter = .5", "line 4, robots[1]", "a digit stands before the point: 0.5"),
+    ("// the leader", "line 4, robots[1]", "a comment begins with #"),
+    ("[robots.drive]\nforce_limited = True", "line 5, robots[1].drive", "true and false"),
+    ("drive = { type = 'Car',\n  wheelbase = 0.2 }", "line 4, robots[1]",
+     "a table in braces has one line; a longer one has a head, [robots.drive]"),
+]  # fmt: skip
+"""Fields in files of TOML, as other languages write them."""
 
 TEAMS = [
     ("return [[1, 2], [3]]", "its rows have 2 and 1 numbers"),
@@ -206,7 +246,7 @@ def test_a_line_of_a_file(answer, lines, words):
 
 @each_case("body, words", LAWS)
 def test_a_law_of_a_robot(answer, body, words):
-    made = "Robot(name='red', controller=go, sensors=[Proximity(range=1)])"
+    made = "Robot(name='red', controller=go, sensors=[Proximity(range=1), Ground()])"
     told = answer(
         f"{HEAD.rstrip()}\nintegral = 0\n\ndef go(robot):\n{indented(body)}\n"
         f"scenario = Scenario(robots=[{made}], stop_time=0.3)\n"
@@ -224,6 +264,20 @@ def test_a_law_of_a_team(answer, body, words):
     helps(told, words)
     assert "walk.py, line " in told
     assert "(at 0 s)" in told
+
+
+def test_two_robots_commands_are_not_taken_for_rows(answer):
+    for pairs in ("[(0.2, 0.1), (0.2, 0.1)]", "(0.2, 0.1), (0.2, 0.1)"):
+        told = answer(f"{HEAD}scenario = Scenario(robots=2)\ndef control(world): return {pairs}\n")
+        helps(told, "is each tuple a robot's command? Then write np.transpose(...) of them")
+
+
+@each_case("lines, place, words", FILES_OF_SCENARIOS)
+def test_a_scenario_file(answer, lines, place, words):
+    Path("room.toml").write_text(f"format = 1\n[[robots]]\n[[robots]]\n{lines}\n")
+    told = answer("", "run", "room.toml", "--headless")
+    helps(told, words)
+    assert told.startswith(f"mars2d: room.toml, {place}: ")
 
 
 @each_case("line, words", COMMANDS)

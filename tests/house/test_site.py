@@ -56,11 +56,13 @@ def missing_pictures(site, pages):
 @pytest.fixture(scope="module")
 def site(tmp_path_factory):
     folder = tmp_path_factory.mktemp("site")
-    done = subprocess.run(
-        [sys.executable, "-m", "mkdocs", "build", "--strict", "-d", folder], cwd=ROOT, check=False,
-        capture_output=True, text=True, env=os.environ | {"NO_MKDOCS_2_WARNING": "1"},
-    )  # fmt: skip
-    assert done.returncode == 0, done.stdout + done.stderr
+    build = "-m", "mkdocs", "build", "--strict", "-d", folder
+    for words in (["docs/make/pages.py"], build):
+        done = subprocess.run(
+            [sys.executable, *words], cwd=ROOT, check=False, capture_output=True, text=True,
+            env=os.environ | {"NO_MKDOCS_2_WARNING": "1"},
+        )  # fmt: skip
+        assert done.returncode == 0, done.stdout + done.stderr
     return folder
 
 
@@ -70,7 +72,9 @@ def site(tmp_path_factory):
 def test_the_site_is_built_and_has_all_of_it(site, browser):
     gallery = (site / "gallery" / "index.html").read_text("utf-8")
     assert [name for name in examples() if f"mars2d demo {name}<" not in gallery] == []
-    modules = re.findall(r"^    \"(mars2d[\w.]*)\"", (ROOT / "docs" / "site_hooks.py").read_text())
+    modules = re.findall(
+        r"^    \"(mars2d[\w.]*)\"", (ROOT / "docs" / "make" / "pages.py").read_text()
+    )
     contents = (site / "reference" / "index.html").read_text("utf-8")
     for module in modules:
         for name in importlib.import_module(module).__all__:

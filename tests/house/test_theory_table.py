@@ -11,7 +11,7 @@ import pytest
 pytestmark = [pytest.mark.slow, pytest.mark.nightly]
 
 ROOT = Path(__file__).parents[2]
-_spec = importlib.util.spec_from_file_location("make_theory", ROOT / "docs" / "make_theory.py")
+_spec = importlib.util.spec_from_file_location("theory", ROOT / "docs" / "make" / "theory.py")
 make_theory = importlib.util.module_from_spec(_spec)
 _spec.loader.exec_module(make_theory)
 

@@ -11,13 +11,14 @@ import mars2d
 from mars2d import Robot, Scenario
 from mars2d.core.errors import InputError, MissingExtraError
 from mars2d.core.extras import pip_line
+from mars2d.core.scene import Scene
 from mars2d.output.films.film import (
     cut_of,
     film_record,
     save_film,
     save_pictures,
 )
-from mars2d.output.films.footage import Footage, shots
+from mars2d.output.films.footage import Drawings, shots
 from mars2d.scenario.experiment import Experiment
 from mars2d.world.loop import simulate
 from tests.cases import each_case
@@ -164,22 +165,18 @@ def test_a_film_shows_the_part_that_is_asked_for_and_the_last_frame_is_its_end(r
     assert seen(record, end=2.0)[-1].over_message == ""
 
 
-def test_a_live_run_and_its_record_make_the_same_film():
-    for part in ({}, {"start": 0.7, "end": 2.9}, {"end": 1.0}):
-        footage = Footage(SCENARIO, 0.4, 10, **part)
-        world = simulate(Experiment(SCENARIO, turning), watchers=[footage])
-        live = list(footage.frames(world.frame))
-        assert len(live) == footage.count(world.frame)
-        recorded = seen(world.record, speed=0.4, fps=10, **part)
-        assert [frame.time for frame in live] == [frame.time for frame in recorded]
-        assert all(np.array_equal(a.pose, b.pose) for a, b in zip(live, recorded, strict=True))
+def test_a_film_has_what_add_ons_draw_while_the_run_goes_on():
+    class Count(mars2d.addons.Addon):
+        def on_draw(self, world, scene):
+            scene.text((0, 0), str(world.iteration))
 
-
-def test_a_run_that_ended_before_the_part_that_is_filmed_says_so():
-    footage = Footage(SCENARIO, 1.0, 25, 3.0)
-    world = simulate(Experiment(SCENARIO.replace(stop_time=1.0), turning), watchers=[footage])
-    with pytest.raises(InputError, match=r"film from 3 s on: the run ended at 1 s"):
-        next(footage.frames(world.frame))
+    drawings = Drawings()
+    scenario = SCENARIO.replace(addons=[Count()])
+    record = simulate(Experiment(scenario, turning), watchers=[drawings]).record
+    for frame in map(drawings.on, map(record.frame, range(len(record)))):
+        scene = Scene()
+        frame.draw_addons(scene)
+        assert [shape.text for shape in scene.shapes] == [str(frame.iteration)]
 
 
 @each_case("suffix", ["gif", "mp4"])

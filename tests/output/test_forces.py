@@ -13,7 +13,6 @@ from mars2d.output.layers.arrows import round_force
 from mars2d.output.layers.forces import (
     MAX_CONTACTS,
     MAX_LABELS,
-    as_read,
     force_scale,
     forces,
     in_newtons,
@@ -139,7 +138,6 @@ def test_where_nothing_acts_nothing_is_drawn():
 )
 def test_forces_are_read_with_two_digits(force, text):
     assert in_newtons(force) == text
-    assert in_newtons(as_read(force)) == text, "what is rounded once stays as it is"
 
 
 @each_case("most, round_", [(1, 1), (1.99, 1), (2, 2), (9.9, 5), (10, 10), (0.3, 0.2), (730, 500)])

@@ -29,7 +29,7 @@ from mars2d.world.loop import simulate
 from tests.cases import each_case
 from tests.processes import PATIENCE
 
-MAKER = "make_notebook.py"
+MAKER = "notebook.py"
 NOTEBOOK = Path(__file__).parents[2] / "docs" / "notebook.ipynb"
 REMAKE = f"run: python docs/{MAKER}"
 
@@ -205,7 +205,7 @@ def stored():
 
 @pytest.fixture(scope="module")
 def maker():
-    spec = importlib.util.spec_from_file_location("make_notebook", NOTEBOOK.parent / MAKER)
+    spec = importlib.util.spec_from_file_location("notebook", NOTEBOOK.parent / "make" / MAKER)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module

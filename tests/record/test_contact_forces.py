@@ -46,7 +46,7 @@ def test_a_pair_has_one_force_a_control_step_by_all_its_normals():
 def test_what_feels_contacts_alone_changes_its_momentum_by_them_in_each_control_step():
     """Balls in a box of walls: against walls, corners, each other and an L by two normals."""
     props = [
-        Ball(pose=(0.1 * k - 0.3, 0.35 * (k % 2) - 0.5, 0), radius=0.08, friction=0.4,
+        Ball(pose=(0.1 * k - 0.3, 0.35 * (k % 2) - 0.5, 0), diameter=0.16, friction=0.4,
              velocity=(0.9 - 0.4 * k, 0.5 + 0.3 * k, 1.0), restitution=0.6)
         for k in range(5)
     ]  # fmt: skip

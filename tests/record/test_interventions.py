@@ -9,7 +9,7 @@ import mars2d
 from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.record import interventions
-from mars2d.record.interventions import Change, Place, Pull, Steer
+from mars2d.record.interventions import Change, Place, Pull, Push, Steer
 from mars2d.scenario.experiment import open_experiment
 from mars2d.world.verify import rerun
 from tests.cases import each_case
@@ -21,6 +21,7 @@ EACH = [
     Place(3, 1, (0.1, 0.2, 1 / 3)),
     Pull(4, 0, (0.0, 0.1), (1.0, 2.0), 20.0, 2.0),
     Pull(9, 0, (0.0, 0.1), None, 20.0, 2.0),
+    Push(9, 0, (0.0, 0.1), (-3.0, 1 / 3), 0.5),
     Change(5, SCENARIO.replace(addons=[BLOCK])),
     Change(6, SCENARIO, ((0, (1.0, 1.0, 0.5)),)),
 ]
@@ -39,7 +40,7 @@ def test_a_law_is_not_kept_in_a_file():
 
 def test_what_is_none_is_refused():
     with pytest.raises((KeyError, TypeError)):
-        interventions.of_plain({"type": "Push", "row": 1})
+        interventions.of_plain({"type": "Shove", "row": 1})
     with pytest.raises(TypeError):
         interventions.of_plain({"type": "Place", "row": 1})
 

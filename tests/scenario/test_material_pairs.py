@@ -173,7 +173,7 @@ def test_plain_data_without_these_fields_are_read_as_before():
 
 def test_the_editor_keeps_it():
     scenario = rich()
-    edited = Draft.of(scenario).scenario()
+    edited = Draft(scenario).scenario()
     assert surfaces_of(edited) == surfaces_of(scenario)
     assert edited.material_pairs == scenario.material_pairs
     assert edited.friction_rule == "geometric"

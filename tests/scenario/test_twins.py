@@ -1,41 +1,12 @@
-"""Names that mean the same: radius and diameter, and the items of lists by number or name."""
+"""The items of lists are named by number or by name."""
 
 import pytest
 
 from mars2d import InputError, Robot, Scenario
 from mars2d.addons import Map
-from mars2d.bodies import Ball, Box, Puck
+from mars2d.bodies import Box
 from mars2d.scenario.experiment import open_experiment
 from tests.cases import each_case
-
-
-@each_case("kind", [Robot, Ball, Puck])
-def test_a_radius_is_half_a_diameter(kind):
-    small = kind(radius=0.25)
-    assert small == kind(diameter=0.5)
-    assert (small.radius, small.diameter) == (0.25, 0.5)
-    assert small.replace(radius=0.1).diameter == 0.2
-    assert small.replace(diameter=0.1).radius == 0.05
-    assert repr(small) == f"{kind.__name__}(diameter=0.5)"
-
-
-@each_case("kind", [Robot, Ball, Puck])
-def test_only_one_of_them_is_given(kind):
-    with pytest.raises(InputError, match=f"{kind.__name__} has both radius and diameter"):
-        kind(radius=0.1, diameter=0.2)
-    with pytest.raises(InputError, match=f"{kind.__name__}.radius = 'a': expected a number"):
-        kind(radius="a")
-    with pytest.raises(InputError, match=f"{kind.__name__}.diameter = -2"):
-        kind(radius=-1)
-
-
-def test_a_file_may_have_a_radius(tmp_path):
-    path = tmp_path / "room.toml"
-    path.write_text("format = 1\n[[robots]]\nradius = 0.2\n")
-    assert open_experiment(path).scenario.robots[0].diameter == 0.4
-    path.write_text("format = 1\n[[robots]]\nradius = 0.2\ndiameter = 0.4\n")
-    with pytest.raises(InputError, match=r"room.toml, line \d.*has both radius and diameter"):
-        open_experiment(path)
 
 
 @pytest.fixture
@@ -50,7 +21,7 @@ def scenario():
 def test_settings_name_things_as_laws_do(scenario):
     given = {
         "robots.blue.mass": 2.0,
-        "robots.red.radius": 0.2,
+        "robots.red.diameter": 0.4,
         "props.crate.mass": 1.5,
         "addons.wall.friction": 0.7,
     }
@@ -69,6 +40,7 @@ def test_settings_name_things_as_laws_do(scenario):
         ("robots.rde.mass", r"'robots.rde': expected \* or 0 to 1 or a name; did you mean 'red'"),
         ("robots.2.mass", r"expected \* or 0 to 1 or a name; known: blue, red"),
         ("addons.wal.friction", r"expected \* or 0 to 0 or a name; did you mean 'wall'"),
+        ("robots.red.radius", r"no field 'radius'; write diameter=2 \* radius"),
         ("robots.red.colour", "Robot has no field 'colour'; did you mean 'color'"),
     ],
 )

@@ -19,7 +19,7 @@ def address(tmp_path):
     folder = os.environ.get("MARS2D_PYODIDE")
     if not folder:
         pytest.skip("needs a folder of Pyodide in MARS2D_PYODIDE: tests/wasm/distribution.py")
-    make = [sys.executable, CHECKOUT / "docs" / "make_try.py", tmp_path, "--pyodide", folder]
+    make = [sys.executable, CHECKOUT / "docs" / "make" / "try_it.py", tmp_path, "--pyodide", folder]
     subprocess.run(make, check=True)
     with served(tmp_path) as address:
         yield f"{address}index.html"

@@ -171,7 +171,7 @@ def sliders_of(panel):
 def predictions_of(panel):
     """Return how many predictions are ok, and of how many; None where they are not shown."""
     found = panel.reading.predictions
-    return [sum(each.ok for each in found), len(found)] if panel.is_open else None
+    return [sum(bool(each.ok) for each in found), len(found)] if panel.is_open else None
 
 
 def marks_of(window):
@@ -196,8 +196,8 @@ def editor_of(editor):
     return {
         "tool": editor.tool_name,
         "robots": [robot.pose for robot in desk.draft.robots],
-        "walls": desk.draft.walls,
-        "outlines": desk.draft.outlines,
+        "walls": desk.draft.listed("wall"),
+        "outlines": desk.draft.listed("outline"),
         "selection": desk.selection,
         "corners": len(getattr(editor.tool, "corners", ())),
         "prompt": None if editor.dialogs.prompt is None else editor.dialogs.prompt.label,
@@ -238,11 +238,11 @@ def of_editor(editor):
         "tool": editor.tool_name,
         "robots": [robot.pose for robot in draft.robots],
         "props": [[type(p).__name__, *p.pose, *_sizes(p)] for p in draft.props],
-        "outlines": draft.outlines,
-        "walls": draft.walls,
-        "routes": draft.routes,
-        "beacons": [beacon.position for beacon in draft.beacons],
-        "workspace": draft.workspace,
+        "outlines": draft.listed("outline"),
+        "walls": draft.listed("wall"),
+        "routes": draft.listed("waypoint"),
+        "beacons": [beacon.position for beacon in draft.listed("beacon")],
+        "workspace": draft.base.workspace,
         "selection": desk.selection,
         "corner": desk.corner,
         "notice": desk.notice,
@@ -257,14 +257,15 @@ def of_editor(editor):
         "drives": [repr(robot.drive) for robot in draft.robots],
         "members": [[b.mass, b.friction, b.color] for b in (*draft.robots, *draft.props)],
         "sensors": [[repr(sensor) for sensor in robot.sensors] for robot in draft.robots],
-        "joints": [[type(j).__name__, j.a, j.b, j.anchor_b] for j in draft.joints],
+        "joints": [[type(j).__name__, j.a, j.b, j.anchor_b] for j in draft.base.joints],
         "base": [draft.base.title, draft.base.stop_time, draft.base.on_exit],
         "idle": editor.properties.idle(draft),
         "panel": {title: place.center for title, place in editor.panel.places.items()},
         "rows": [[row.title, row.value] for row in editor.properties.rows()],
         "signs": {title: place.center for title, place in editor.panel.signs.items()},
         "menu": {title: place.center for title, place in editor.menu.places.items()},
-        "chosen": editor.menu.chosen,
+        "chosen": (editor.menu if editor.menu.is_open else editor.panel).chosen,
+        "focused": editor.panel.focused,
         "snaps": desk.snaps,
         "step": desk.step,
         "changed": desk.history.changed,

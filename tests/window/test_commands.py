@@ -21,6 +21,7 @@ pytestmark = pytest.mark.slow
 ROOT = Path(__file__).parents[2]
 
 WALKS = """
+'Walks. Question: how far does it get? Try: another speed.'
 from pathlib import Path
 
 from mars2d import Robot, Scenario
@@ -133,7 +134,9 @@ def test_a_window_at_rest_takes_hardly_any_time_and_ctrl_c_keeps_the_record(
 
     wait_until(rests, seen.process)
     seen.process.send_signal(signal.SIGINT)
-    assert seen.end()[0] == 130
+    code, told = seen.end()
+    assert code == 130
+    assert "Question: How far does it get?\nTry: Another speed.\n" in told
     assert not load(tmp_path / "out.npz").finished
 
 

@@ -10,7 +10,7 @@ from mars2d.scenario.roles import robots_named
 from mars2d.window import show
 from mars2d.window.run import driver as driver_module
 from mars2d.window.run.driver import ARROWS, LETTERS, Driver
-from mars2d.world.teleop import Stick, command_of, ramped
+from mars2d.world.teleop import Stick, ramped
 from tests.cases import each_case
 
 UP, DOWN, LEFT, RIGHT = (
@@ -46,21 +46,21 @@ def settled(driver, drive, seconds=1.0):
 
 def test_a_drive_in_the_worlds_frame_goes_where_the_arrow_points():
     drive = Holonomic(max_linear_speed=0.8)
-    assert command_of(drive, Stick(1, 0)) == (0.8, 0.0)
-    assert command_of(drive, Stick(0, -0.5)) == (0.0, -0.4)
+    assert drive.steered(*Stick(1, 0)) == (0.8, 0.0)
+    assert drive.steered(*Stick(0, -0.5)) == (0.0, -0.4)
 
 
 def test_a_unicycle_drives_and_turns_left_where_the_stick_is_left():
-    v, omega = command_of(Unicycle(), Stick(0, 1))
+    v, omega = Unicycle().steered(*Stick(0, 1))
     assert (v, omega) == pytest.approx((0.5, 0.0))
-    v, omega = command_of(Unicycle(), Stick(-1, 0))
+    v, omega = Unicycle().steered(*Stick(-1, 0))
     assert (v, omega) == pytest.approx((0.0, 1.5))
 
 
 @each_case("drive", [Unicycle(), Unicycle(wheel_semiaxis=0.3)])
 @each_case("stick", [Stick(1, 1), Stick(-1, 1), Stick(1, -1), Stick(0.3, 1)])
 def test_full_speed_leaves_the_wheels_what_they_need_to_turn(drive, stick):
-    v, omega = command_of(drive, stick)
+    v, omega = drive.steered(*stick)
     b = drive.wheel_semiaxis
     assert max(abs(v - b * omega), abs(v + b * omega)) <= drive.max_linear_speed + 1e-12
     assert omega == pytest.approx(-1.5 * stick.across)
@@ -68,7 +68,7 @@ def test_full_speed_leaves_the_wheels_what_they_need_to_turn(drive, stick):
 
 def test_a_car_steers():
     car = Car(max_steering=0.4, max_linear_speed=2.0)
-    assert command_of(car, Stick(-0.5, 1)) == (2.0, 0.2)
+    assert car.steered(*Stick(-0.5, 1)) == (2.0, 0.2)
 
 
 def test_a_tap_is_a_nudge_and_a_stick_comes_back_sooner_than_it_goes_out():

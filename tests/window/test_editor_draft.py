@@ -6,7 +6,7 @@ from pathlib import Path
 import pygame
 import pytest
 
-from mars2d.addons import Beacon, Map, Voronoi, Waypoints
+from mars2d.addons import Beacon, Estimate, Game, Map, Trails, Voronoi, Waypoints
 from mars2d.bodies.joints import Hinge, Rope
 from mars2d.bodies.props import Ball, Box
 from mars2d.core.errors import InputError
@@ -52,7 +52,7 @@ def furnished():
 
 def test_a_draft_keeps_the_order_and_the_fields_of_add_ons():
     scenario = furnished()
-    draft = Draft.of(scenario).added("outline", ((-1, -1), (0, -1), (0, 0)))
+    draft = Draft(scenario).added("outline", ((-1, -1), (0, -1), (0, 0)))
     changed = draft.scenario()
     assert [addon.key for addon in changed.addons] == [addon.key for addon in scenario.addons]
     chart = changed.addons[1]
@@ -61,24 +61,25 @@ def test_a_draft_keeps_the_order_and_the_fields_of_add_ons():
 
 
 def test_without_obstacles_and_waypoints_their_add_ons_go():
-    draft = Draft.of(furnished())
+    draft = Draft(furnished())
     bare = draft.without([i for i in draft.items() if i.kind not in ("robot", "prop")])
     assert [addon.key for addon in bare.scenario().addons] == ["voronoi"]
 
 
 def test_with_a_robot_go_its_route_and_its_joints():
-    draft = Draft.of(furnished()).without([Item("robot", 1)])
+    draft = Draft(furnished()).without([Item("robot", 1)])
     scenario = draft.scenario()
-    assert draft.routes == ((),)
+    assert draft.listed("waypoint") == ((),)
     assert scenario.joints == ()
-    assert draft.added("robot", Robot()).renamed(Item("robot", 1), "second").joints == ()
+    assert draft.added("robot", Robot()).renamed(Item("robot", 1), "second").base.joints == ()
     assert not any(isinstance(addon, Waypoints) for addon in scenario.addons)
-    first = Draft.of(furnished()).without([Item("robot", 0)])
-    assert first.routes == (((-3, 3), (-2, 3)),)  # robot 1 is robot 0 now, and so is its route
+    first = Draft(furnished()).without([Item("robot", 0)])
+    (route,) = first.listed("waypoint")
+    assert route == ((-3, 3), (-2, 3))  # robot 1 is robot 0 now, and so is its route
 
 
 def test_new_things_get_names_that_are_free():
-    before = Draft.of(furnished())
+    before = Draft(furnished())
     draft = before.added("robot", Robot()).added("prop", Box()).added("beacon", Beacon((0, 0)))
     names = [draft.name(item) for item in draft.new_since(before)]
     assert names == ["box1", "robot1", "beacon0"]
@@ -87,35 +88,35 @@ def test_new_things_get_names_that_are_free():
 def tied(*joints):
     """Return the draft of two boxes, one at (0, 0), the other at (2, 0), and of a robot."""
     boxes = [Box(pose=(0, 0, 0)), Box(pose=(2, 0, pi / 2))]
-    return Draft.of(Scenario(robots=[Robot(pose=(-3, 3, 0))], props=boxes, joints=joints))
+    return Draft(Scenario(robots=[Robot(pose=(-3, 3, 0))], props=boxes, joints=joints))
 
 
 def test_copies_are_tied_as_their_models_are():
     draft = tied(Rope(a="box0", b="box1"), Rope(a="box1", anchor_b=(2, 3)))
     both = draft.copied([Item("prop", 0), Item("prop", 1)], Motion(by=(0.0, -3.0)))
-    assert [(j.a, j.b, j.anchor_b) for j in both.joints[2:]] == [
+    assert [(j.a, j.b, j.anchor_b) for j in both.base.joints[2:]] == [
         ("box2", "box3", (0, 0)),
         ("box3", None, (2, 0)),
     ]
     assert judge(both).text == ""
     one = draft.copied([Item("prop", 0)], Motion(by=(0.0, -3.0)))
-    assert len(one.joints) == 2
+    assert len(one.base.joints) == 2
 
 
 def test_the_pin_of_a_hinge_stays_one_point_when_a_body_moves():
     hinges = Hinge(a="box0", b="box1", anchor_a=(1, 0), anchor_b=(0, 1)), Hinge(a="box0")
     draft = tied(*hinges).moved([Item("prop", 1)], Motion(pi / 2, (2.0, 0.0), (0.0, 0.5)))
-    assert draft.joints[0].anchor_b == (0, 1)
-    assert draft.joints[0].anchor_a == pytest.approx((2, -0.5))
+    assert draft.base.joints[0].anchor_b == (0, 1)
+    assert draft.base.joints[0].anchor_a == pytest.approx((2, -0.5))
     assert judge(draft).text == ""
     both = draft.moved([Item("prop", 0), Item("prop", 1)], Motion(by=(0.0, 1.0)))
-    assert both.joints[1].anchor_b == (0, 1)
+    assert both.base.joints[1].anchor_b == (0, 1)
     assert judge(both).text == ""
 
 
 def test_a_body_that_is_moved_starts_there_and_no_longer_at_random():
     robots = [Robot(name="red"), Robot(name="blue")]
-    draft = Draft.of(Scenario(robots=robots, random_starts=[RandomStarts()]))
+    draft = Draft(Scenario(robots=robots, random_starts=[RandomStarts()]))
     red, blue = Item("robot", 0), Item("robot", 1)
     x, y, _ = draft.pose(red)
     moved = draft.moved([red], Motion(by=(3 - x, 3 - y)))
@@ -126,23 +127,39 @@ def test_a_body_that_is_moved_starts_there_and_no_longer_at_random():
 
 
 def test_a_new_name_holds_wherever_the_body_is_mentioned():
-    follow = Robot(pose=(-3, 0, 0), controller=FollowRobot(leader="robot0"))
-    draft = Draft.of(furnished()).added("robot", follow)
+    follow = Robot(pose=(-3, -4, 0), controller=FollowRobot(leader="robot0"))
+    mentions = [
+        Game({"robot0": ["robot0"], "hunted": ["second", 2]}, hunted=["second"]),
+        Trails(robots=["second", "robot0"]),
+        Estimate(robot="robot0"),
+    ]
+    scenario = furnished()
+    scenario = scenario.replace(
+        robots=[*scenario.robots, follow],
+        addons=[*scenario.addons, *mentions],
+        random_starts=[RandomStarts(["robot0"])],
+    )
+    draft = Draft(scenario)
     draft = draft.renamed(Item("robot", 0), "Ada").renamed(Item("robot", 1), "Bo")
-    assert [robot.name for robot in draft.robots] == ["Ada", "Bo", "robot1"]
+    assert [robot.name for robot in draft.robots] == ["Ada", "Bo", "robot2"]
     assert draft.robots[2].controller.leader == "Ada"
-    assert draft.joints[0].a == "Bo"
+    assert draft.base.joints[0].a == "Bo"
+    found = draft.scenario()
+    game, trails, estimate = found.addons[-3:]
+    assert game.roles == (("robot0", ("Ada",)), ("hunted", ("Bo", 2)))
+    assert (game.hunted, trails.robots, estimate.robot) == (("Bo",), ("Bo", "Ada"), "Ada")
+    assert found.random_starts[0].bodies == ("Ada",)
     with pytest.raises(InputError, match="'Bo' is the name of another body"):
         draft.renamed(Item("robot", 0), "Bo")
 
 
 def test_things_turn_about_a_point_and_come_back():
-    draft = Draft.of(furnished())
+    draft = Draft(furnished())
     items = draft.items()
     quarter = Motion(pi / 2, (1.0, 2.0), (0.5, -0.5))
     turned = draft.moved(items, quarter)
     assert turned.robots[0].pose == pytest.approx((3.5, -2.5, pi / 2))
-    assert turned.outlines[0][0] == pytest.approx((2.5, 1.5))
+    assert turned.listed("outline")[0][0] == pytest.approx((2.5, 1.5))
     back = turned.moved(items, Motion(by=(-0.5, 0.5))).moved(items, Motion(-pi / 2, (1.0, 2.0)))
     assert back.scenario() == draft.scenario()
 
@@ -167,14 +184,14 @@ def fault(draft):
     ],
 )
 def test_a_robot_that_can_not_stand_where_it_is(by, words, other):
-    draft = Draft.of(furnished()).moved([Item("robot", 0)], Motion(by=by))
+    draft = Draft(furnished()).moved([Item("robot", 0)], Motion(by=by))
     text, culprits = fault(draft)
     assert text.startswith(words)
     assert culprits == {Item("robot", 0), other or Item("robot", 0)}
 
 
 def test_a_waypoint_outside_the_workspace():
-    draft = Draft.of(furnished()).added("waypoint", (7.0, 0.0), 0)
+    draft = Draft(furnished()).added("waypoint", (7.0, 0.0))
     outside = {Item("waypoint", 0, 0)}
     assert fault(draft) == ("waypoint 0 of robot0 lies outside the workspace", outside)
 
@@ -188,9 +205,9 @@ def test_a_waypoint_outside_the_workspace():
     ],
 )
 def test_outlines_that_are_none(outline, words):
-    text, culprits = fault(Draft.of(furnished()).added("outline", outline))
-    assert text.startswith(words)
-    assert culprits == {Item("outline", 1)}
+    with pytest.raises(InputError) as refused:
+        Draft(furnished()).added("outline", outline)
+    assert str(refused.value).startswith(words)
 
 
 # -- history, sketch, targets, prompts -------------------------------------------------------------
@@ -199,7 +216,7 @@ def test_outlines_that_are_none(outline, words):
 def seen_by(camera):
     viewpoint = Viewpoint(furnished(), Layout.of((1280, 720)))
     viewpoint.camera = camera
-    return Desk(Draft.of(furnished()), viewpoint)
+    return Desk(Draft(furnished()), viewpoint)
 
 
 def test_what_lies_uppermost_is_hit():
@@ -262,7 +279,7 @@ def test_a_document_that_was_named_is_kept_there_and_never_over_another_file(tmp
 @each_case("name", sorted(examples()))
 def test_a_draft_of_an_example_is_that_scenario_again_and_can_be_emptied(name):
     scenario = open_experiment(name).scenario
-    draft = Draft.of(scenario)
+    draft = Draft(scenario)
     assert draft.scenario() == scenario
     assert judge(draft).text == ""
     editor = Editor(scenario, Looks(), live=True)

@@ -260,16 +260,62 @@ def test_without_a_mouse_everything_is_placed_selected_and_changed(open_editor):
     hands.press("Return", "Tab")
     hands.until(lambda s: s["selection"] == [["robot", 0, 0]] and s["tool"] == "select")
     hands.press("F2")
-    hands.until(lambda s: s["chosen"] == "Law" and "Mass" in s["menu"])
+    hands.until(lambda s: s["focused"] and s["chosen"] == "Law")
     hands.press("Return")
     hands.until(lambda s: s["chosen"] == "driven by hand")
     hands.press("Return")
     hands.until(lambda s: s["laws"] == ["ByHand()"])
-    hands.press("F2", "m", "a", "s", "Return")
+    hands.press("m", "a", "s", "Return")
     hands.fill("2")
-    hands.until(lambda s: s["members"][0][0] == 2 and s["menu"] == {})
+    hands.until(lambda s: s["members"][0][0] == 2 and s["focused"])
+    hands.press("Right", "Escape", "Right")  # the panel's, then the robot's
+    hands.until(lambda s: s["members"][0][0] == 2.5 and s["robots"][0][0] > 1)
     hands.press("Tab")
     hands.until(lambda s: s["selection"] == [["prop", 0, 0]])
+
+
+def typed(hands, *places):
+    """Type places, each into a prompt of its own."""
+    for place in places:
+        hands.press("equal")
+        hands.until(lambda s: s["prompt"] is not None)
+        hands.type(place)
+        hands.press("Return")
+        hands.until(lambda s: s["prompt"] is None)
+
+
+def test_without_a_mouse_areas_are_drawn_their_corners_changed_and_bodies_tied(open_editor):
+    hands = open_editor()
+    hands.press("m", "Delete", "Delete")
+    typed(hands, "-4 -4", "4 3")
+    hands.until(lambda s: s["workspace"] == [[-4, -4], [4, -4], [4, 3], [-4, 3]])
+    hands.press("F2", "End", "Return")
+    hands.type("-4 4")
+    hands.press("Return", "Escape", "ctrl+d", "Down")
+    hands.until(lambda s: s["workspace"][3] == [-4, 4] and len(s["workspace"]) == 5)
+    hands.press("Delete")
+    hands.until(lambda s: len(s["workspace"]) == 4)
+    hands.press("k")
+    typed(hands, "2 -2", "3 -3")
+    hands.until(lambda s: s["outlines"] == [[[2, -3], [3, -3], [3, -2], [2, -2]]])
+    hands.press("r")
+    typed(hands, "0 0", "2 0")
+    hands.press("Escape", "Tab", "Tab", "shift+Tab")
+    hands.until(lambda s: s["selection"] == [["robot", 0, 0], ["robot", 1, 0]])
+    hands.press("F2", "End", "Return")
+    hands.until(lambda s: "Rope" in s["menu"])
+    hands.press("r", "o", "p", "Return")
+    hands.until(lambda s: s["tool"] == "tie")
+    typed(hands, "0 2")
+    assert [joint[1:] for joint in hands.state["joints"]] == [
+        ["robot0", None, [0, 2]],
+        ["robot1", None, [0, 2]],
+    ]
+    hands.press("Escape", "Tab", "Tab", "F2")
+    hands.press("j", "Return", "r", "o", "p", "Return")
+    hands.until(lambda s: s["tool"] == "tie")
+    typed(hands, "robot1")
+    hands.until(lambda s: s["joints"][-1][1:3] == ["robot0", "robot1"])
 
 
 def test_escape_or_a_click_beside_it_closes_a_menu(open_editor):

@@ -7,7 +7,7 @@ from mars2d import LawError, Robot, Scenario
 from mars2d.addons import Map
 from mars2d.core.scene import Circle, Line, Text
 from mars2d.scenario.experiment import Experiment
-from mars2d.window.run.controls import Controls, Marks
+from mars2d.window.run.controls import Controls, marks_in
 from mars2d.window.run.ghosts import ghosts
 from mars2d.window.screen.player import Player
 from mars2d.window.screen.source import Playback
@@ -52,10 +52,10 @@ def test_a_body_is_seen_where_it_was_and_how_it_got_there():
     scene = ghosts(timeline, timeline.frame)
     ((x, y),) = centers(scene)
     assert (x, y) == pytest.approx((4.0, 0.0))
-    pieces = [shape.points for shape in scene.shapes if isinstance(shape, Line)]
-    dashes = np.array([piece for piece in pieces if np.ptp(piece[:, 0]) < 0.2])
-    assert dashes[..., 0].min() == pytest.approx(2.0)  # where the branches part
-    assert (dashes[..., 1] == 0.0).all()
+    lines = [shape for shape in scene.shapes if isinstance(shape, Line)]
+    (way,) = [shape.points for shape in lines if shape.style == "--"]
+    assert way[0].tolist() == pytest.approx([2.0, 0.0])  # where the branches part
+    assert way[-1].tolist() == pytest.approx([4.0, 0.0])
     assert [shape.text for shape in scene.shapes if isinstance(shape, Text)] == ["branch from 10 s"]
 
 
@@ -69,7 +69,7 @@ def test_before_the_branches_part_there_are_none():
 
 def test_from_the_other_branch_this_one_is_seen():
     timeline = branched()
-    timeline.other_branch()
+    timeline.show(timeline.others[0])
     ((_, y),) = centers(ghosts(timeline, timeline.frame))
     assert y == -2.0
 
@@ -86,15 +86,14 @@ def test_after_its_end_a_branch_stays_there_and_says_so():
 
 def test_marks_of_hands_branches_and_collisions():
     timeline = timeline_of(addons=[Map([[(1.0, -1.0), (1.0, 1.0)]])])
-    marks = Marks(timeline)
-    assert marks.rows() == {"collision": [], "hand": [], "branch": [], "error": []}
+    assert marks_in(timeline) == {"collision": [], "hand": [], "branch": [], "error": []}
     run_to(timeline, 40)
     record = timeline.record
     touched = record.contacts["time"][record.contacts["began"]]
     assert len(touched) == 1
     timeline.go(30)
     timeline.change(lambda w: w.operator.place(1, (3.0, 3.0, 0.0)))
-    rows = Marks(timeline).rows()
+    rows = marks_in(timeline)
     assert rows["collision"] == [int(np.ceil(touched[0] / 0.5))]
     assert rows["hand"] == [30]
     assert rows["branch"] == [30]
@@ -105,7 +104,7 @@ def test_a_recording_has_the_marks_that_its_run_had():
     run_to(timeline, 30)
     timeline.change(lambda w: w.operator.place(1, (3.0, 3.0, 0.0)))
     run_to(timeline, 40)
-    ran = Marks(timeline).rows()
+    ran = marks_in(timeline)
     player = Player(Playback(timeline.record), 1.0)
     player.go(20)
     shown = Controls(player, player.source).time_state()
@@ -125,4 +124,4 @@ def test_the_row_at_which_a_law_failed_is_marked():
     timeline = timeline_of(law=law)
     with pytest.raises(LawError):
         run_to(timeline, 40)
-    assert Marks(timeline).rows()["error"] == [10]
+    assert marks_in(timeline)["error"] == [10]

@@ -37,6 +37,7 @@ from mars2d.window.panels.forcemeter import reading_of
 from mars2d.window.panels.forceplot import draw_force
 from mars2d.window.panels.inspector import Inspector, sensor_plots
 from mars2d.window.panels.readout import contacts_of, dynamics_of, inbox, rounded, state_of
+from mars2d.window.panels.rows import RowsPanel
 from mars2d.window.panels.sensorplot import history
 from mars2d.window.screen.selection import Selection
 from tests.cases import each_case
@@ -254,9 +255,6 @@ def test_it_fits_into_what_there_is(world, size, theme):
             Inspector(painter(Layout.of((1280, 720)), theme), Selection(body)),
             Written(size),
         )
-        sections = inspector._look(world.frame)
-        chosen = [*inspector._chosen(sections, size[1], columns=max(1, size[0] // 300))]
-        assert all(top + inspector._pixels(part) <= size[1] + 1 for _, top, part in chosen)
         inspector.draw(surface, surface.get_rect(), world.frame)
         assert (pixels(surface)[0, 0] == rgba(theme.plate)[:3]).all()
 
@@ -265,12 +263,9 @@ def test_all_sensors_can_be_reached_by_the_wheel(world):
     surface = Written((316, 300))
     inspector = Inspector(painter(Layout.of((1280, 720)), LIGHT), Selection(0))
     seen = set()
-    for _ in range(20):
-        inspector._image = None
-        inspector.draw(surface, surface.get_rect(), world.frame)
-        first, *others = inspector._sections
-        listed = [first, *others[inspector._first :]]
-        seen |= {part.name for _, _, part in inspector._chosen(listed, 300)}
+    for _ in range(60):
+        RowsPanel.draw(inspector, surface, surface.get_rect(), world.frame)
+        seen |= set(surface.texts)
         inspector.handle(pygame.Event(pygame.MOUSEWHEEL, y=-1, precise_y=-1.0))
     assert {sensor.key for sensor in world.scenario.robots[0].sensors} <= seen
 

@@ -2,6 +2,7 @@
 
 import json
 
+import numpy as np
 import pytest
 
 from mars2d.scenario.experiment import open_experiment
@@ -118,6 +119,54 @@ def test_who_is_caught_has_lost_and_a_rematch_begins_with_a_countdown(memory, ca
     assert window.player.frame.time == 0
     run_to_the_end(window)
     assert window.game.tally("evader").played == 2
+
+
+def test_a_replay_counts_once_and_the_next_start_is_drawn_from_the_next_seed(memory):
+    window = opened("round_a_pillar", memory, [1], mu=2.0)
+    run_to_the_end(window)
+    window.player.pause_or_resume()  # watches it again
+    while window.player.playing:
+        window.game.pass_time(0.1)
+        window.player.pass_time(0.1)
+    window.game.pass_time(0.1)
+    assert window.game.tally("evader").played == 1
+    first = window.player.frame.scenario.initial_pose
+    assert window.game.choose(0)
+    assert window.director.timeline.experiment.seed == 1
+    assert (window.player.frame.scenario.initial_pose != first).any()
+    assert [seat.role for seat in window.game.seats] == ["evader"]
+    run_to_the_end(window)
+    assert window.game.tally("evader").played == 2
+
+
+def test_who_wins_plays_faster_and_who_loses_no_slower_than_at_first(memory, catch):
+    window = opened(catch, memory, [1], pursuer="rests.py", stop_time=3.0)
+    for speed in (1.25, 1.5625):
+        run_to_the_end(window)
+        window._restart()
+        assert window.player.speed == speed
+    window = opened(catch, memory, [1])
+    run_to_the_end(window)
+    window._restart()
+    assert window.player.speed == 1.0
+
+
+@each_case(
+    ("game", "robot", "keys", "distance"),
+    [
+        ("escort", 1, "↑←↓→", (0, 2)),  # the guard sees how near the hunter is to the prey
+        ("selfish_herd", 3, "↑←↓→", (0, 3)),
+        ("two_cars", 1, "←→", (0, 1)),
+    ],
+)
+def test_a_person_sees_the_keys_that_work_and_the_distance_that_counts(
+    memory, game, robot, keys, distance
+):
+    play = opened(game, memory, [robot]).game
+    frame = play._player.frame
+    assert "".join(play.seats[0].keys) == keys
+    apart = np.hypot(*np.diff(frame.pose[:2, distance], axis=1)[:, 0])
+    assert play.distance(frame) == pytest.approx(apart)
 
 
 def test_who_stays_free_has_won_and_a_better_time_is_news(memory, catch):

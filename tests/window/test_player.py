@@ -199,7 +199,8 @@ def pressed(name, character, *, manual, mod=0):
     [
         ("space", " ", "pause"), ("right", "", "step"), ("=", "=", "faster"), ("=", "+", "faster"),
         ("]", "+", "faster"), ("[+]", "+", "faster"), ("-", "-", "slower"), ("f1", "", "help"),
-        ("escape", "", "escape"), ("w", "w", None), ("left shift", "", None), ("return", "", None),
+        ("escape", "", "escape"), ("w", "w", "push"), ("left shift", "", None),
+        ("return", "", None),
     ],
 )  # fmt: skip
 def test_what_keys_do(keyboard, name, character, action):
@@ -269,7 +270,7 @@ def test_at_speed_max_the_simulation_gets_nine_times_as_long_as_the_drawing():
 @each_case(
     "name, action",
     [
-        ("space", "step"), ("return", "step"), ("right", "step"), ("w", "step"), ("up", "step"),
+        ("space", "step"), ("return", "step"), ("right", "step"), ("up", "step"),
         ("g", "grid"), ("m", "messages"), ("x", "forces"), ("left", "back"), ("y", "theory"),
         ("tab", "select"), ("escape", "escape"),
         ("left shift", None), ("left ctrl", None),

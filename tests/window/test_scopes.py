@@ -75,7 +75,7 @@ def test_after_another_branch_or_a_new_start_a_trace_is_read_anew(timeline):
         np.testing.assert_array_equal(signal.values[:rows, 0], timeline.recorded.pose[:, 0, 0])
 
     is_right()
-    timeline.other_branch()
+    timeline.show(timeline.others[0])
     is_right()
     timeline.restart()
     timeline.advance()

@@ -5,11 +5,16 @@ from math import inf
 import numpy as np
 import pytest
 
+from mars2d import Robot, Scenario
 from mars2d.output.marks import MARKS
 from mars2d.output.raster.layout import TEXT_SIZES, Layout
 from mars2d.output.raster.theme import LIGHT
+from mars2d.scenario.experiment import open_experiment
+from mars2d.window.run.controls import Controls
 from mars2d.window.run.timebar import TimeBar, TimeState
+from mars2d.window.screen.player import Player
 from mars2d.window.widgets.slider import SpeedSlider
+from mars2d.world.timeline import Timeline
 from tests.cases import each_case
 from tests.window.written import THEMES, Written, painter, pixels
 
@@ -228,3 +233,26 @@ def test_the_part_moves_on_with_the_handle_but_not_by_itself():
     assert not drawn.bar.span.first <= 390 <= drawn.bar.span.last
     back = after(200)
     assert back.first < 200 < back.last
+
+
+def test_beside_the_speed_the_pointer_asks_what_a_step_and_a_picture_take():
+    timeline = Timeline(open_experiment(Scenario(robots=[Robot(controller=lambda robot: (1, 0))])))
+    player = Player(timeline, 1.0)
+    controls, surface = Controls(player, timeline), Written((1280, 720))
+    layout = Layout.of(surface.get_size(), controls=True)
+    beside = layout.slider.right - 10, layout.slider.centery
+
+    def says(pointer):
+        surface.words.clear()
+        controls.draw(surface, layout, painter(layout, LIGHT), pointer, lambda drag: False)
+        return [text for text in surface.texts if text.startswith("a step: ")]
+
+    assert says(beside) == []  # nothing was done yet
+    timeline.advance()
+    timeline.advance()
+    spent = timeline.world.simulation.seconds
+    assert all(seconds > 0 for seconds in spent.values())
+    spent.update(physics=3e-3, laws=4.2e-4, sensing=8e-6)
+    player.drawing = 0.0123
+    assert says(beside) == ["a step: physics 1.5 ms, laws 210 µs, sensing 4 µs; a picture: 12 ms"]
+    assert says((0, 0)) == []

@@ -11,6 +11,7 @@ from mars2d import Robot, Scenario
 from mars2d.core.errors import LawError
 from mars2d.output.figures.comparison import MODES, drifts
 from mars2d.output.films.footage import Cut
+from mars2d.output.raster.theme import LIGHT
 from mars2d.record.contact import met
 from mars2d.scenario.experiment import open_experiment
 from mars2d.window.compare_window import CompareWindow
@@ -20,7 +21,7 @@ from mars2d.window.trio import Trio
 from mars2d.world.timeline import Timeline
 from tests.cases import each_case
 from tests.window.person import differing
-from tests.window.written import Written
+from tests.window.written import Written, painter
 
 FAILS = """
 from mars2d import Robot, Scenario
@@ -181,3 +182,16 @@ def test_looks_help_pictures_and_leaving(compare):
     window.until(lambda s: s["row"] < row or s["row"] < 5)
     window.press("ctrl+q")
     window.until(lambda s: s.get("left"))
+
+
+def test_each_physics_says_what_it_counts_and_leaves_out_and_which_line_another_hides(keyboard):
+    window = CompareWindow(trio_of("tug_of_war", stop_time=1), size=(1280, 720))
+    window.looks.painter = painter(window.looks.layout((1280, 720)), LIGHT)
+    while window.trio.row < 20:
+        window.trio.advance()
+    window.player.settle()
+    surface = Written((1280, 720))
+    window.draw(surface)
+    assert {"0 collisions", "0 stops", "0 overlaps"} <= set(surface.texts)
+    assert sum(text.startswith("without 4 ropes; ") for text in surface.texts) == 2
+    assert {"stop, max", "ideal, max: the same", "ideal, mean: the same"} <= set(surface.texts)

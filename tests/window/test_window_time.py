@@ -354,3 +354,21 @@ def test_a_law_that_waits_in_c_is_named_and_only_ctrl_q_ends_it(open_window):
     assert notes == ["waiting for walk.py, line 6; Ctrl Q ends the program, and saves"]
     pygame.event.post(pygame.Event(pygame.QUIT))
     assert shown._answer("walk.py, line 6") == "did not return before the window was closed"
+
+
+def test_shift_and_arrows_go_through_a_step_moment_by_moment_and_on_to_the_next(open_window, room):
+    window = open_window(1, experiment=str(room))
+    window.press("space", "Home", "Right", "Right", "Right")
+    row, x = window.state["row"], window.state["robots"][0][0]
+    window.press(*["shift+Right"] * 3)
+    moment = window.shown.player.frame
+    assert moment.time == pytest.approx(0.1 * row + 3 * 0.1 / 8)
+    assert moment.pose[0, 0] == pytest.approx(x + 0.2 * 3 * 0.1 / 8)
+    assert window.settle()["chip"] == "+37.5 ms  3 of 8"
+    assert window.state["layers"]["forces"]
+    window.press(*["shift+Right"] * 6)  # beyond the end of the step
+    assert window.shown.player.frame.time == pytest.approx(0.1 * (row + 1) + 0.1 / 8)
+    window.press(*["shift+Left"] * 2)  # the row itself, then the step before
+    assert window.shown.player.frame.time == pytest.approx(0.1 * (row + 1) - 0.1 / 8)
+    window.press("Right")
+    assert window.settle()["chip"] == "paused"

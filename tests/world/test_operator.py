@@ -207,6 +207,34 @@ def digest_of_a_crowd():
     return world.record.digest
 
 
+# -- pushing ---------------------------------------------------------------------------------------
+
+
+@each_case("duration", [0.5, 0.101, 0.02])
+def test_a_push_gives_force_times_time_as_momentum_and_half_its_square_over_mass_as_work(duration):
+    free = Puck(name="puck", mass=2.0, ground_friction=0.0)
+    scenario = Scenario(robots=[ROBOT.at(-4, -4)], props=[free], sampling_time=0.04)
+    world = World(scenario)
+    world.operator.push("puck", (3.0, 4.0), duration)
+    for _ in range(20):
+        world.step()
+    momentum = world.frame.momentum.linear[:, 1]
+    assert momentum == pytest.approx([3.0 * duration, 4.0 * duration])
+    assert world.frame.energy.by("hands") == pytest.approx((5.0 * duration) ** 2 / (2 * 2.0))
+    assert world.operator.force(1) == 0.0  # it is over
+
+
+def test_a_push_beside_the_middle_turns_a_body_and_pushes_add_up():
+    crate = CRATE.replace(name="crate", ground_friction=0.0)
+    world = World(Scenario(robots=[ROBOT.at(-4, -4)], props=[crate], sampling_time=0.01))
+    world.operator.push("crate", (2.0, 0.0), 0.01, (0.0, 0.2))
+    world.operator.push("crate", (0.0, 5.0), 0.01)
+    world.step()
+    assert world.operator.force(1) == pytest.approx(hypot(2.0, 5.0))
+    spin = world.frame.exact_velocity[2, 1]
+    assert spin == pytest.approx(-2.0 * 0.2 * 0.01 / crate.inertia.moment)
+
+
 # -- placing -----------------------------------------------------------------------------------
 
 
@@ -293,11 +321,11 @@ def test_a_robot_that_is_driven_has_the_hands_command_and_its_law_is_asked_all_t
         ),
         (
             lambda h: h.steer("red", 3),
-            r"Operator.steer\(command\) = 3: expected two numbers, or None",
+            r"Operator.steer: the command was given 3: expected two numbers, \(v, omega\)",
         ),
-        (lambda h: h.steer("red", (1, 2, 3)), r"expected two numbers, or None"),
-        (lambda h: h.steer("red", (float("nan"), 0)), r"Operator.steer\(command\) = nan"),
-        (lambda h: h.steer("red", ("a", 0)), r"Operator.steer\(command\) = 'a': expected a number"),
+        (lambda h: h.steer("red", (1, 2, 3)), "expected two numbers"),
+        (lambda h: h.steer("red", (float("nan"), 0)), "a command must be finite"),
+        (lambda h: h.steer("red", ("a", 0)), "expected two numbers"),
         (lambda h: h.place("gren", (0, 0, 0)), "Operator.place: there is no body 'gren'"),
         (lambda h: h.place("red", (0, 0, 0, 0)), r"Operator.place\(pose\)"),
         (lambda h: h.place("red", (0, float("inf"), 0)), r"Operator.place\(pose\)"),
@@ -310,6 +338,12 @@ def test_a_robot_that_is_driven_has_the_hands_command_and_its_law_is_asked_all_t
         (lambda h: h.pull("red", (0, 0), (1, 1), speed=-1), "expected a number > 0 and <= 100"),
         (lambda h: h.pull("red", (0.2, 0), (1, 1)), "a point of the body, within 0.15 m"),
         (lambda h: h.pull("red", (1e300, 0), (1, 1)), r"Operator.pull\(grip\)"),
+        (lambda h: h.push("red", (1, 1), 0.5, (0.2, 0)), "a point of the body, within 0.15 m"),
+        (lambda h: h.push("red", (0, 0), 0.5), r"Operator.push\(force\) = \(0, 0\): expected more"),
+        (
+            lambda h: h.push("red", (1, 0), 0),
+            r"Operator.push\(duration\) = 0: expected a number > 0",
+        ),
         (lambda h: h.hold("blu"), "World.hold: there is no robot 'blu'"),
     ],
 )
@@ -327,6 +361,8 @@ def test_where_no_forces_act_nothing_can_be_pulled_but_put_elsewhere(physics):
     world = World(Scenario(robots=[ROBOT], physics=physics))
     with pytest.raises(InputError, match=f"can't be pulled: with physics = '{physics}' no forces"):
         world.operator.pull(0, (0, 0), (1, 1))
+    with pytest.raises(InputError, match="no forces act"):
+        world.operator.push(0, (1, 1), 0.5)
     world.operator.place(0, (1, 1, 1))
     world.step()
     assert world.pose[:, 0].tolist() == [1, 1, 1]
@@ -363,6 +399,7 @@ def poked(seed=0):
             world.operator.pull("puck", (0, 0), None)
         if k == 25:
             world.operator.place("robot0", (0.0, -2.0, 2.0))
+            world.operator.push("puck", (1.5, -0.5), 0.73, (0.01, 0.0))
         world.step()
     return world
 

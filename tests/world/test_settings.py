@@ -135,7 +135,7 @@ def test_undo_takes_back_one_slider_and_what_it_says(timeline):
     timeline.undo()
     assert timeline.experiment.options == {}
     assert speeds(after(timeline, 10).record) == [0.2] * len(speeds(timeline.record))
-    timeline.other_branch()
+    timeline.show(timeline.others[0])
     assert timeline.experiment.options == options_of(timeline.world) != {}
 
 

@@ -227,6 +227,8 @@ def poke(timeline, upto=150):
             world.operator.steer(2, (0.2, 1.0))
         if k == 90:
             world.operator.steer(2, None)
+        if k == 100:  # it acts still when time goes on from row 120
+            world.operator.push(1, (3.0, 4.0), 30.3 * world.sampling_time, (0.1, 0.0))
         timeline.advance()
 
 
@@ -309,13 +311,13 @@ def test_a_branch_of_a_branch_and_back(memory):
     second, first = timeline.world, timeline.branches[1]
     assert timeline.parted(first) == 120
     assert timeline.parted(timeline.branches[0]) == 80
-    timeline.other_branch()
+    timeline.show(timeline.others[0])
     assert timeline.record.digest == expected.digest
     assert timeline.row == 140
-    timeline.other_branch()
+    timeline.show(timeline.others[0])
     assert timeline.world is first
     timeline.go(100)
-    timeline.other_branch()
+    timeline.show(timeline.others[0])
     assert timeline.world is second
     assert timeline.row == 100
     timeline.go(130)
@@ -525,7 +527,7 @@ def test_in_the_past_they_make_a_branch(written):
     timeline.take(open_experiment(path))
     assert (timeline.newest, len(timeline.branches)) == (10, 1)
     run_to(timeline, 15)
-    timeline.other_branch()
+    timeline.show(timeline.others[0])
     assert timeline.newest == 20
     timeline.go(timeline.newest)
     timeline.advance()
@@ -649,7 +651,7 @@ def test_a_run_that_hands_changed_is_kept_when_it_is_started_anew(memory):
     finish(timeline)
     assert timeline.record.digest == simulated(memory).digest
     assert [len(branch) for branch in timeline.record.branches] == [80, 60]
-    timeline.other_branch()
+    timeline.show(timeline.others[0])
     assert (timeline.world, timeline.branches, timeline.row) == (changed, [before], 80)
     run_to(timeline, 90)
     timeline.go(50)

@@ -4,7 +4,8 @@
    turn at 0.282 rad/s, as measured over the last 20 s: 22.2 s.
 2. Three robots see up to 60 degrees to each side, and D_0 to the next one on the circle is nearer:
    2 asin(D_0 / (2 radius)) = 97.2 degrees. Then the last one has a gap of 360 - 2 x 97.2 = 165.6
-   before it: 166.0 after 300 s. Four on a circle of 0.85 m leave one of 131.1, and do: 131.1.
+   before it: 166.0 after 300 s. Four on a circle of 0.85 m leave one of 131.1, and do: 131.1. On
+   one of 0.9 m two lose sight of the next one: gaps of 117.9 and 99.3 instead of one of 145.9.
 3. In even gaps the next robot is at the edge of the view. Seen from nearer than D_0 it turns one
    out of the circle, until it is out of view again: four see somebody for 49 % of the time, and go
    at 0.706 m, six at 0.726 m, and not at 0.700 m. Views that are 5 % narrower leave room: 0.700 m

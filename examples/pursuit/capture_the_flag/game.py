@@ -26,16 +26,24 @@ GOAL = [(REACH * cos(k * pi / 12) - 4, REACH * sin(k * pi / 12)) for k in range(
 
 def scenario(guards=2, attackers=4, mu=1.0, guard=GUARD, attacker=ATTACKER, seed: int = 0):
     def pairs(scene, frame):
-        starts = frame.scenario.initial_pose[:2].T
-        for i, j in theory.matching(starts, guards, mu):
-            scene.line([starts[i], starts[guards + j]], stroke=VIOLET, width=3)
+        out = [leaving.robot for leaving in game.exits_at(frame)]
+        free = [k for k in range(guards, guards + attackers) if k not in out]
+        team, path, most = [*range(guards), *free], [*frame.path, frame.pose], []
+        for pose in (path[max(-11, -len(path))], frame.pose):  # a second ago, and now
+            places = pose[:2, team].T
+            matched = theory.matching(places, guards, mu)
+            most.append(len(free) - len(matched))
+        for i, j in matched:
+            scene.line([places[i], places[guards + j]], stroke=VIOLET, width=3)
+        said = f"at most {most[1]} more, {most[1] - most[0]:+d} in 1 s\n\n"
+        scene.text((-4, REACH), said, color=VIOLET, halo="#ffffff")
 
     rng, robot = np.random.default_rng(seed), Robot(diameter=0.4, sees="positions")
     slow, quick = (Holonomic(max_linear_speed=speed) for speed in (mu * SPEED, SPEED))
     red = robot.replace(drive=quick, controller=load_law(guard), color="red")
     blue = robot.replace(drive=slow, controller=load_law(attacker), color="blue")
     y = [np.linspace(-4, 4, k + 2)[1:-1] for k in (guards, attackers)]
-    x = [rng.uniform(-2, 0.5, guards), rng.uniform(1, 3, attackers)]
+    x = [rng.uniform(-2, 0.5, guards), rng.uniform(1, 3, attackers) - rng.uniform(1, 2.5)]
     team = [red.replace(name=f"guard {k + 1}").at(x[0][k], y[0][k]) for k in range(guards)]
     team += [blue.replace(name=f"blue {k + 1}").at(x[1][k], y[1][k]) for k in range(attackers)]
     roles = {"guard": range(guards), "attacker": range(guards, guards + attackers)}

@@ -10,7 +10,10 @@ FLAG, REACH, CAPTURE = np.array([[-4.0], [0.0]]), 0.5, 0.5  # m
 
 
 def stops(guard, attacker, mu):
-    return np.hypot(*(dominance(attacker, guard, mu, CAPTURE) - FLAG)).min() > REACH
+    """Whether a guard keeps an attacker off the flag: all of it is out of the attacker's region."""
+    guard_way, way = (np.hypot(*(place - FLAG[:, 0])) for place in (guard, attacker))
+    edge = dominance(attacker, guard, mu, CAPTURE) - FLAG
+    return way / mu > guard_way - CAPTURE and np.hypot(*edge).min() > REACH
 
 
 def matching(starts, guards, mu):

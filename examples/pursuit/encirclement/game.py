@@ -2,7 +2,8 @@
 
 Question: how many does it take, and how must they stand?
 Setting: distributed, partial information: each knows its own pose and where all others are, and
-asks for a velocity. Any touch of the evader is a capture; free after 15 s, it has escaped.
+asks for a velocity. Any touch of the evader is a capture; free after 15 s, it has escaped. The
+ratio of the speeds is drawn about the limit for the width if it is 0.
 Source: B. N. Pshenichnyi, Simple pursuit by several objects, Cybernetics 12, 1976: at equal speeds
 the evader is caught if and only if it is within the pursuers' convex hull. A quicker one, F. L.
 Chernous'ko, A problem of evasion from many pursuers, J. Appl. Math. Mech. 40, 1976, escapes any
@@ -13,7 +14,7 @@ g = 1 that is the hull, for n at even gaps n >= pi / asin g. At the angle b from
 asin g to asin g + pi / 2, it comes no nearer than d sin(b - asin g), where d is that at the start.
 """
 
-from math import asin, hypot, pi
+from math import asin, hypot, pi, sin
 
 import numpy as np
 import theory
@@ -26,7 +27,7 @@ SPEED, APART, WIDTH = 0.5, 3.0, 0.2  # m/s, of the evader; m, how far all start;
 
 def scenario(
     n: int = 3,
-    ratio: float = 0.9,
+    ratio: float = 0.0,  # of the speeds, 0: drawn from 0.95 to 1.05 of the limit
     uneven: float = 0.05,  # rad, how far the pursuers may stand off even gaps
     pursuer: str = "pursuers/bearing.py",
     evader: str = "evaders/gap.py",
@@ -42,6 +43,7 @@ def scenario(
 
     rng, hold = np.random.default_rng(seed), {"force_limited": accel > 0, "max_force": accel or 5.0}
     ways = rng.uniform(0, 2 * pi) + 2 * pi * np.arange(n) / n + rng.uniform(-uneven, uneven, n)
+    ratio = ratio or sin(pi / n - asin(WIDTH / APART)) * rng.uniform(0.95, 1.05)
     slow = Holonomic(max_linear_speed=ratio * SPEED, **hold)
     quick = Holonomic(max_linear_speed=SPEED, **hold)
     red = Robot(sees="positions", diameter=WIDTH, drive=slow, controller=load_law(pursuer))

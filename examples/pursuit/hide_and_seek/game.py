@@ -4,7 +4,8 @@ Question: how much quicker must a seeker be to see who hides behind a pillar? Tr
 mars2d run hide_and_seek --set hider=my_law.py --set mu=1.1 --seed 3
 Setting: distributed, sensors only: both know their own pose. The seeker sees who is in its line of
 sight; the hider hears the seeker, through the pillar. The hider goes 0.5 m/s, the seeker mu times
-that. An evader is seen when the pillar does not cut the line between the middles of both.
+that, drawn about the limit of the 60 s if it is 0. An evader is seen when the pillar does not cut
+the line between the middles of both.
 Source: our own geometry; Bhattacharya and Hutchinson, IJRR 30(14), 2011, have the game at corners.
 Prediction: at D and h from the pillar's middle they see each other if the angle between them is
 less than acos(R / D) + acos(R / h). It falls by mu v / D - v / h a second: never if mu < D / h.
@@ -27,7 +28,7 @@ def circle(angle, radius):
     return radius * cos(angle), radius * sin(angle)
 
 
-def scenario(mu: float = 1.4, seeker: str = SEEKER, hider: str = HIDER, seed: int = 0):
+def scenario(mu: float = 0.0, seeker: str = SEEKER, hider: str = HIDER, seed: int = 0):
     def shadow(scene, frame):
         x, y = frame.pose[:2, 0]
         half = acos(min(1, PILLAR / np.hypot(x, y)))
@@ -35,7 +36,10 @@ def scenario(mu: float = 1.4, seeker: str = SEEKER, hider: str = HIDER, seed: in
             touch = np.array(circle(atan2(y, x) + side, PILLAR))
             scene.line([touch, touch + 2 * (touch - (x, y))], stroke=VIOLET, width=1.5)
 
-    apart = np.random.default_rng(seed).uniform(2.3, 3.1)
+    rng = np.random.default_rng(seed)
+    apart = rng.uniform(2.3, 3.1)
+    gain = apart - acos(PILLAR / FAR) - acos(PILLAR / NEAR)  # rad, that red has to make up
+    mu = mu or FAR * (gain / 60 / SPEED + 1 / NEAR) * rng.uniform(0.96, 1.04)
     eyes, ears = (RangeBearing(range=20, through_walls=hears) for hears in (False, True))
     slow, quick = (Holonomic(max_linear_speed=speed) for speed in (SPEED, mu * SPEED))
     red = Robot(name="red", diameter=1.0, drive=quick, sees="sensors", sensors=[Pose(), eyes])

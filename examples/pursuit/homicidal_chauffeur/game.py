@@ -3,7 +3,8 @@
 Question: from which width on does the car win from any start?
 Setting: distributed, partial information: each knows its own pose and that of the other. The car
 goes at 1 m/s always and steers; the pedestrian asks for a velocity. A touch is a capture: their
-middles are `reach` apart. Play: mars2d run homicidal_chauffeur --human pedestrian
+middles are `reach` apart, drawn about the limit if it is 0.
+Play: mars2d run homicidal_chauffeur --human pedestrian
 Source: R. Isaacs, Differential Games, 1965; A. W. Merz, The Homicidal Chauffeur, Stanford, 1971.
 Prediction: for a radius R, l = reach / R and g < 1, the ratio of the speeds, the car wins from
 everywhere in the endless plane if and only if l > sqrt(1 - g^2) + g asin(g) - 1. That is how far,
@@ -23,7 +24,7 @@ SPEED, RADIUS, PERSON = 1.0, 2.0, 0.2  # m/s and m, of the car; m, the pedestria
 
 def scenario(
     ratio: float = 0.5,
-    reach: float = 0.2,
+    reach: float = 0.0,  # m, 0: drawn from 0.85 to 1.15 of the limit
     car: str = "cars/swerve.py",
     pedestrian: str = "pedestrians/matador.py",
     accel: float = 0.0,  # m/s^2, what tyres and feet hold, 0: any
@@ -40,7 +41,9 @@ def scenario(
             middle = x - side * RADIUS * sin(theta), y + side * RADIUS * cos(theta)
             scene.circle(middle, RADIUS, stroke="#7b329480")
 
-    way, heading = np.random.default_rng(seed).uniform(0, 2 * pi, 2)
+    rng = np.random.default_rng(seed)
+    way, heading = rng.uniform(0, 2 * pi, 2)
+    reach = reach or max(least(min(ratio, 1)) * rng.uniform(0.85, 1.15), 0.6 * PERSON)
     hold = {"force_limited": accel > 0, "max_force": accel or 1.0, "max_torque": 100.0}
     drive = Dubins(max_linear_speed=SPEED, max_angular_speed=SPEED / RADIUS, **hold)
     red = Robot(name="car", sees="partial", diameter=2 * reach - PERSON, drive=drive)

@@ -3,14 +3,15 @@
 Question: which pursuer catches an evader that runs round a pillar, and when? Try your own laws:
 mars2d run round_a_pillar --set evader=my_law.py --set mu=1 --seed 3
 Setting: distributed, partial information: each knows its own pose and where the other is. The
-evader goes 0.5 m/s, the pursuer mu times that. A distance of 0.7 m is a capture.
+evader goes 0.5 m/s, the pursuer mu times that, drawn about the limit of the 60 s if it is 0. A
+distance of 0.7 m is a capture.
 Law: the evader runs along a circle of the radius h to keep opposite; the pursuer comes after it.
 Source: obstacle tag: Isaacs, Differential Games, Wiley, 1965, problem 6.10.1. The formula is ours.
 Prediction: on one circle the angle a between them falls by (mu - 1) v / h a second. Equals run for
 ever; a chord of the capture distance l ends it, so t = (a h - 2 h asin(l / 2 h)) / ((mu - 1) v).
 """
 
-from math import acos, atan2, cos, pi, sin
+from math import acos, asin, atan2, cos, pi, sin
 
 import numpy as np
 import theory
@@ -36,18 +37,21 @@ def shortest(start, end):
     return [start, *(circle(each, RADIUS) for each in arc * int(rest > 0)), end]
 
 
-def scenario(mu: float = 1.25, pursuer: str = PURSUER, evader: str = EVADER, seed: int = 0):
+def scenario(mu: float = 0.0, pursuer: str = PURSUER, evader: str = EVADER, seed: int = 0):
     def way(scene, frame):
         scene.line(shortest(*frame.pose[:2].T), stroke=VIOLET, width=2)
 
     robot, rng = Robot(diameter=0.4, sees="positions"), np.random.default_rng(seed)
+    angle = rng.uniform(2, 3.1)
+    gain = angle * RADIUS - 2 * RADIUS * asin(CAPTURE / 2 / RADIUS)  # m, that red has to make up
+    mu = mu or 1 + gain / 60 / SPEED * rng.uniform(0.85, 1.15)
     slow, quick = (Holonomic(max_linear_speed=speed) for speed in (SPEED, mu * SPEED))
     red = robot.replace(name="red", drive=quick, controller=load_law(pursuer))
     blue = robot.replace(name="blue", drive=slow, controller=load_law(evader))
     game = Game({"pursuer": ["red"], "evader": ["blue"]}, capture=CAPTURE)
     return Scenario(
         title="Round a pillar",
-        robots=[red.at(RADIUS, 0), blue.at(*circle(rng.uniform(2, 3.1), RADIUS))],
+        robots=[red.at(RADIUS, 0), blue.at(*circle(angle, RADIUS))],
         on_exit="wall",
         stop_time=60.0,
         addons=[Map([[circle(k * pi / 24, PILLAR) for k in range(48)]]), game, Theory(way)],

@@ -2,7 +2,8 @@
 
 Question: who is quicker is sure to catch. How much sooner does it, if it aims well?
 Setting: distributed, partial information: each knows its own pose and where the other is, and asks
-for a velocity, which its drive shortens. A touch is a capture. Crates may stand in the way.
+for a velocity, which its drive shortens. A touch is a capture; the pursuer wins by one within the
+par, drawn from 0.4 to 0.75 of the longest chase. Crates may stand in the way.
 Source: pure pursuit, P. Bouguer, 1732; constant bearing and the circle of Apollonius, R. Isaacs,
 Differential Games, 1965. All hold for points that turn at once, and an evader that runs straight.
 Prediction: of the pursuer's speed v the evader has the share g < 1. It runs at the angle phi to the
@@ -43,11 +44,16 @@ def scenario(
     red, grid = red.at(r * cos(way), r * sin(way)), np.mgrid[-4:5, -4:5].reshape(2, -1).T * 1.4
     spots = [at for at in grid + rng.uniform(-0.4, 0.4, grid.shape) for _ in range(crates)]
     clear = [at for at in spots if min(hypot(*at), dist(at, red.pose[:2])) > 0.6]
+    longest = (r - start.diameter) / SPEED / (1 - ratio) if ratio < 1 else 60.0  # straight away
+    game = Game(
+        {"pursuer": ["red"], "evader": ["blue"]},
+        par=round(longest * rng.uniform(0.4, 0.75), 1), to_the_end=True,
+    )  # fmt: skip
     return Scenario(
         title="Straight chase", robots=[red, blue],
         props=[Box(mass=0.5, ground_friction=0.2).at(*at) for at in clear],
         workspace=[(-8, -8), (8, -8), (8, 8), (-8, 8)], on_exit="wall", stop_time=60.0,
-        addons=[Game({"pursuer": ["red"], "evader": ["blue"]}), Theory(circle)][: 1 + (ratio < 1)],
+        addons=[game, Theory(circle)][: 1 + (ratio < 1)],
         animation=Animation(base_colors=("red", "blue"), playback_speed=4),
     )  # fmt: skip
 

@@ -2,7 +2,8 @@
 
 Question: is it enough to be quicker?
 Setting: distributed, partial information: each knows its own pose and that of the other, and
-steers. A touch is a capture. Play: mars2d run two_cars --human evader
+steers. A touch is a capture. The evader's radius is drawn from 0.4 to 1.2 m if it is 0.
+Play: mars2d run two_cars --human evader
 Source: E. J. Cockayne, Plane pursuit with curvature constraints, SIAM Journal on Applied
 Mathematics 15, 1967: with points in the endless plane the pursuer can capture from every start if
 and only if it is quicker, v > w, and can bend its way as strongly, v^2 / R >= w^2 / r, for the
@@ -23,7 +24,7 @@ SPEED, RADIUS, RATIO = 1.0, 2.0, 0.7  # m/s and m, of the pursuer; the evader's 
 
 
 def scenario(
-    radius: float = 0.5,
+    radius: float = 0.0,  # m, of the evader, 0: drawn
     pursuer: str = "pursuers/lead.py",
     evader: str = "evaders/jink.py",
     accel: float = 0.0,  # m/s^2, what tyres hold, 0: any
@@ -35,7 +36,9 @@ def scenario(
                 at = theory.circles(pose, robot.drive, np.linspace(0, 2, 40), side)
                 scene.line(np.transpose([at.real, at.imag]), stroke="#7b3294", width=2)
 
-    way, heading, other = np.random.default_rng(seed).uniform(0, 2 * pi, 3)
+    rng = np.random.default_rng(seed)
+    way, heading, other = rng.uniform(0, 2 * pi, 3)
+    radius = radius or rng.uniform(0.4, 1.2)
     hold = {"force_limited": accel > 0, "max_force": accel or 1.0, "max_torque": 100.0}
     quick = Dubins(max_linear_speed=SPEED, max_angular_speed=SPEED / RADIUS, **hold)
     slow = Dubins(max_linear_speed=RATIO * SPEED, max_angular_speed=RATIO * SPEED / radius, **hold)

@@ -41,8 +41,10 @@ class Joint(Description):
     if ``Scenario.physics`` is "contact".
     """
 
-    a: str = text(doc="the name of a robot or prop")
-    b: str | None = text(default=None, optional=True, doc="the name of another; None: the world")
+    a: str = text(doc="the name of a robot or prop", names="body")
+    b: str | None = text(
+        default=None, optional=True, doc="the name of another; None: the world", names="body"
+    )
     anchor_a: Point = entry(
         default=(0.0, 0.0),
         check=checks.point,

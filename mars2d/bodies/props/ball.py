@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import ClassVar
 
 from mars2d.bodies.props.base import Prop
 from mars2d.core.description import number
@@ -16,18 +15,14 @@ class Ball(Prop):
     Its `ground_friction` is 0 by default; 0.01 stands for rolling resistance.
     """
 
-    twins: ClassVar[dict[str, tuple[str, float]]] = {"radius": ("diameter", 2.0)}
-
-    diameter: float = number(
-        default=0.2, low=1e-3, high=1e3, unit="m", doc="its diameter; or give its radius"
-    )
+    diameter: float = number(default=0.2, low=1e-3, high=1e3, unit="m", doc="its diameter")
     ground_friction = 0.0
     friction = 0.0
     restitution = 1.0
 
     @property
     def radius(self) -> float:
-        """Half the diameter, metres; may be given instead of it."""
+        """Half the diameter, metres."""
         return self.diameter / 2
 
     @cached_property

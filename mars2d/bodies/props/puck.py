@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import ClassVar
 
 from mars2d.bodies.props.base import Prop
 from mars2d.core.description import number
@@ -13,16 +12,12 @@ from mars2d.geometry.shapes import Disc, Shape
 class Puck(Prop):
     """A disc that slides and is slowed down by the floor, like a puck on a table."""
 
-    twins: ClassVar[dict[str, tuple[str, float]]] = {"radius": ("diameter", 2.0)}
-
-    diameter: float = number(
-        default=0.2, low=1e-3, high=1e3, unit="m", doc="its diameter; or give its radius"
-    )
+    diameter: float = number(default=0.2, low=1e-3, high=1e3, unit="m", doc="its diameter")
     ground_friction = 0.1
 
     @property
     def radius(self) -> float:
-        """Half the diameter, metres; may be given instead of it."""
+        """Half the diameter, metres."""
         return self.diameter / 2
 
     @cached_property

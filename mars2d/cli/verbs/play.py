@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from mars2d.cli.arguments import MANY, option, options_of, preferences_of, shared
-from mars2d.cli.runs import print_table, require_display, speed_by_hand
+from mars2d.cli.runs import print_table, require_display
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.terminal import tell
 from mars2d.scenario.examples import games, title_of
@@ -34,9 +34,8 @@ def execute(arguments: argparse.Namespace) -> None:
     experiment = open_experiment(arguments.game, options_of(arguments), seed=arguments.seed)
     people = _people(arguments, experiment)
     require_display(f"play {arguments.game}: people need a window, and there is no display")
-    speed, look = arguments.speed, preferences_of(arguments)
-    if speed is None:
-        speed = speed_by_hand(experiment.scenario, people)
+    speed = 1.0 if arguments.speed is None else arguments.speed
+    look = preferences_of(arguments)
     show.show_experiment(experiment, speed, preferences=look, humans=people, play=True)
 
 

@@ -6,7 +6,7 @@ import argparse
 from dataclasses import replace
 
 from mars2d.cli.arguments import preferences_of, shared
-from mars2d.cli.outputs import check_film, conclude, produced, save_film_of
+from mars2d.cli.outputs import check_film, conclude, produced, save_film
 from mars2d.cli.runs import require_display
 from mars2d.window import show
 from mars2d.world.record import load
@@ -28,7 +28,7 @@ def execute(arguments: argparse.Namespace) -> None:
         record = replace(record, scenario=record.scenario.replace(animation=animation))
     check_film(arguments, record.scenario, float(record.time[-1]) if len(record) else 0.0)
     makers = {
-        "video": lambda: save_film_of(record, arguments),
+        "video": lambda: save_film(record, arguments),
         "html": lambda: record.save_html(arguments.html),
     }
     conclude(*produced(arguments, makers))

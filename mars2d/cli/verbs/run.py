@@ -8,27 +8,19 @@ import json
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from functools import partial
 from pathlib import Path
 
 from mars2d.cli import remarks
 from mars2d.cli.arguments import MANY, Output, option, options_of, preferences_of, refuse, shared
-from mars2d.cli.outputs import (
-    FPS,
-    Make,
-    check_film,
-    conclude,
-    film_speed,
-    outcome,
-    run_and_save,
-    save_film,
-)
-from mars2d.cli.runs import opens_window, require_display, run_headless, speed_by_hand
+from mars2d.cli.outputs import check_film, conclude, outcome, run_and_save
+from mars2d.cli.runs import opens_window, require_display, run_headless
 from mars2d.core.errors import InputError, counted, likely, one_line
 from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
+from mars2d.output.films.footage import Drawings
 from mars2d.physics.islands import reason_without
 from mars2d.scenario.experiment import Experiment, open_experiment
+from mars2d.scenario.lesson import lesson_of
 from mars2d.scenario.prediction import table
 from mars2d.scenario.roles import robots_named
 from mars2d.window import show
@@ -63,25 +55,27 @@ def execute(arguments: argparse.Namespace) -> None:
     humans = _check(arguments, experiment)
     for remark in remarks.before(experiment):
         warn(remark)
-    bounds, start = remarks.Bounds(), time.perf_counter()
+    watched, start = remarks.Run(), time.perf_counter()
     try:
         with _live(arguments.foxglove) as live:
-            watchers: list[Watcher] = [bounds, *live]
+            drawings = Drawings()
+            watchers: list[Watcher] = [watched, *live, *[drawings] * bool(arguments.video)]
 
-            def run() -> tuple[Record, Make | None]:
+            def run() -> Record:
                 if not opens_window(not arguments.headless):
                     return _run_headless(arguments, experiment, watchers)
                 speed, own = arguments.speed, experiment.scenario.animation.playback_speed
                 if speed is None:
-                    speed = speed_by_hand(experiment.scenario, humans) if humans else own
+                    speed = 1.0 if humans else own
+                if not arguments.json:
+                    _tell_lesson(experiment.source.path)
                 look, log = preferences_of(arguments), formats.log_to(arguments.record)
                 asks = arguments.record is None
-                seen = show.show_experiment(
+                return show.show_experiment(
                     experiment, speed, watchers, look, humans=humans, log=log, asks=asks
                 )
-                return seen, None
 
-            record, made, troubles = run_and_save(arguments, run)
+            record, made, troubles = run_and_save(arguments, run, drawings)
     except Interrupted:
         _warn_unchecked(experiment, "cut short")
         raise
@@ -104,9 +98,16 @@ def execute(arguments: argparse.Namespace) -> None:
         if predictions:
             title = [experiment.source.summary] if experiment.source.summary else []
             tell("", *title, table(predictions), sep="\n")
-        for remark in bounds.remarks():
+        for remark in watched.remarks():
             tell(f"note: {remark}")
     conclude({} if arguments.json else made, troubles)
+
+
+def _tell_lesson(path: Path | None) -> None:
+    """Print what an experiment asks, predicts and suggests, beside the window that shows it all."""
+    parts = [part for part in lesson_of(path) if part[0] in ("Question", "Prediction", "Try")]
+    for heading, text in parts:
+        tell(f"{heading}: {text}")
 
 
 def _check(arguments: argparse.Namespace, experiment: Experiment) -> tuple[int, ...]:
@@ -145,27 +146,18 @@ def _live(port: int | None) -> Iterator[list[Watcher]]:
 
 def _run_headless(
     arguments: argparse.Namespace, experiment: Experiment, watchers: Sequence[Watcher]
-) -> tuple[Record, Make | None]:
+) -> Record:
     """Run as fast as possible, or in real time for Foxglove; --speed is the film's, too."""
-    from mars2d.output.films.footage import Footage
-
     log = formats.log_to(arguments.record)
     pace = "max" if arguments.foxglove is None else arguments.speed or 1.0
-    speed = film_speed(experiment.scenario, arguments.speed)
-    if arguments.video is None:
-        world, film = run_headless(experiment, watchers, log, pace), None
-    else:
-        footage = Footage(experiment.scenario, speed, FPS, arguments.start, arguments.end)
-        world = run_headless(experiment, [footage, *watchers], log, pace)
-        last = world.frame
-        film = partial(save_film, footage.frames(last), footage.count(last), speed, arguments)
-    seconds = world.simulation.engine_seconds
+    world = run_headless(experiment, watchers, log, pace)
+    seconds = world.simulation.seconds["physics"]
     if seconds >= LONG and reason_without():
         from mars2d.reports.doctor import remedy
 
         slow = f"the engine took {seconds:.0f} s, since {reason_without()}"
         warn(f"{slow}. Compiled it is many times quicker: {remedy()}")
-    return world.record, film
+    return world.record
 
 
 def _warn_lawless(experiment: Experiment) -> None:

@@ -41,8 +41,10 @@ MODES = ("contact", "stop", "ideal")
 MEANINGS = {
     "contact": "forces push, turn and slow",
     "stop": "a robot stops before it overlaps",
-    "ideal": "robots pass through each other",
+    "ideal": "bodies pass through each other",
 }
+COUNTED = {"contact": "collision", "stop": "stop", "ideal": "overlap"}
+"""What begins where two bodies meet."""
 
 COLORS = {"contact": INK, "stop": "#b45309", "ideal": "#6d28d9"}
 """The colours of titles and curves: dark, unlike those of robots."""
@@ -129,7 +131,7 @@ def plot_comparison(records: Mapping[str, Rows]) -> Figure:
 
 def _title(ax: Axes, mode: str, record: Rows) -> None:
     """Write the physics, the number of collisions and the end of a run above its panel."""
-    done = f"{counted(record.collisions, 'collision')}, {counted(len(record) - 1, 'step')}"
+    done = f"{counted(record.collisions, COUNTED[mode])}, {counted(len(record) - 1, 'step')}"
     said = [done, *textwrap.wrap(record.over_message, 44, max_lines=2, placeholder=" …")]
     color, pad = COLORS[mode], 9 + 13 * len(said)
     ax.set_title(mode, loc="left", fontsize=15, color=color, fontweight="bold", pad=pad)

@@ -51,7 +51,7 @@ MAX_IMAGE_COLUMNS = 1500
 
 def plot_signals(
     record: Rows,
-    columns: Sequence[str] = (),
+    columns: Sequence[str | Sequence[str]] = (),
     robots: Sequence[str | int] | None = None,
     axes: Sequence[Axes] | None = None,
     *,

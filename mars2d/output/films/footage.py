@@ -1,4 +1,4 @@
-"""The frames of a film, from a record or taken while the run goes on."""
+"""The frames of a film, and what add-ons draw on them while the run goes on."""
 
 from __future__ import annotations
 
@@ -14,7 +14,6 @@ from mars2d.core.description import real, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.scene import Scene
 from mars2d.record.frame import Frame, between
-from mars2d.scenario.scenario import Scenario
 
 MAX_FRAMES = 100_000
 """The most frames of a film: more than an hour."""
@@ -96,62 +95,24 @@ def shots(
         yield seen[row] if on_time else between(seen[row], seen[row + 1], time)
 
 
-class Footage:
-    """Takes the frames of a run that a film needs; add it to the run's watchers.
+class Drawings:
+    """What add-ons draw while a run goes on; add it to the run's watchers.
 
-    Unlike those of a record, frames of a live run have the drawings of add-ons.
+    A record has their drawing at the end alone, since to draw takes time.
     """
 
-    def __init__(
-        self,
-        scenario: Scenario,
-        speed: float,
-        fps: float,
-        start: float | None = None,
-        end: float | None = None,
-    ) -> None:
-        """Choose the part of the run; see `Cut.of`. The run may end before the part does."""
-        self.speed = speed
-        self._sampling_time = scenario.sampling_time
-        last = scenario.last_iteration * scenario.sampling_time
-        self._cut = Cut.of(last, speed, fps, start, end)
-        self._frames: dict[int, Frame] = {}
-        rows = np.floor(self._cut.moments / self._sampling_time + 1e-9).astype(int)
-        # Each moment lies between two rows, and both are needed.
-        self._wanted = {*rows.tolist(), *(rows + 1).tolist()}
+    def __init__(self) -> None:
+        """Start with none."""
+        self._scenes: dict[int, Scene] = {}
 
     def __call__(self, world: Any) -> None:
-        """Take the frame of a `World`, if the film needs it."""
-        if world.iteration in self._wanted:
-            self.take(world.frame)
+        """Let the add-ons of a `World` draw."""
+        scene = self._scenes[world.iteration] = Scene()
+        world.simulation.draw_addons(scene)
 
-    def take(self, frame: Frame) -> None:
-        """Take a frame, with the present drawings of the add-ons."""
-        if frame.draw_addons is not None:
-            scene = Scene()
-            frame.draw_addons(scene)
-            frame = dataclasses.replace(
-                frame, draw_addons=lambda target: target.extend(scene.shapes)
-            )
-        self._frames[frame.iteration] = frame
-
-    def frames(self, last: Frame) -> Iterator[Frame]:
-        """Yield the film's frames; `last` is the end of the run.
-
-        Raises InputError where the run ended before the film's start.
-        """
-        cut = self._until(last)
-        self.take(last)
-        yield from shots(cut, self._sampling_time, last.iteration, self._frames.__getitem__)
-
-    def count(self, last: Frame) -> int:
-        """Return the number of the film's frames."""
-        return self._until(last).count
-
-    def _until(self, last: Frame) -> Cut:
-        """Return the part as far as the run got."""
-        if last.time < self._cut.start:
-            raise InputError(
-                f"a film from {self._cut.start:g} s on: the run ended at {last.time:g} s"
-            )
-        return dataclasses.replace(self._cut, end=min(self._cut.end, last.time))
+    def on(self, frame: Frame) -> Frame:
+        """Return a frame of the run's record with the drawing of its row, if there is one."""
+        scene = self._scenes.get(frame.iteration)
+        if scene is None:
+            return frame
+        return dataclasses.replace(frame, draw_addons=lambda to: to.extend(scene.shapes))

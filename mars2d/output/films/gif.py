@@ -8,19 +8,17 @@ from __future__ import annotations
 
 from io import RawIOBase
 from itertools import product
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     import pygame
-
-Pixels = NDArray[np.uint32]
-"""Pixels (height, width) as 0x..rrggbb; the highest byte is ignored."""
+    from PIL.Image import Image
 
 Entries = NDArray[np.uint8]
-"""Pixels as entries of the palette."""
+"""Pixels as entries of the palette, or colours."""
 
 CLEAR = 255
 """The palette's entry for a pixel that stays as it was."""
@@ -30,6 +28,9 @@ FEW = 26
 
 TINTS = (0.8, 0.6, 0.4, 0.2)
 """The shares of a vivid colour over white: of the edges of shapes, and of paths."""
+
+ALIKE = 8
+"""Of colours whose channels differ by less, only the first is in the palette."""
 
 LONGEST = 655_350
 """How long a frame is seen at most, milliseconds."""
@@ -42,46 +43,42 @@ class Gif:
         """Begin; `file` stays open at the end."""
         self._file, self._fps = file, fps
         self._count = self._written = 0  # frames; hundredths of a second
-        self._last: Pixels | None = None
+        self._shown: Entries | None = None
         self._pending: tuple[Entries, tuple[int, int]] | None = None
 
     def add(self, picture: pygame.Surface) -> None:
         """Add a picture; one that looks like the one before prolongs its frame."""
         import pygame
+        from PIL import Image
 
-        pixels: Pixels = pygame.surfarray.pixels2d(picture).T.copy()
-        if self._last is None:
-            self._begin(pixels)
-            changed = np.arange(pixels.size)
-        else:
-            changed = np.flatnonzero(pixels != self._last)
-        entries, shown = self._nearest[_codes(pixels.ravel()[changed])], self._shown.reshape(-1)
-        differs = entries != shown[changed]
-        changed, entries = changed[differs], entries[differs]
-        if len(changed):
+        pixels = pygame.image.tobytes(picture, "RGB")
+        image = Image.frombytes("RGB", picture.get_size(), pixels)
+        if self._shown is None:
+            self._begin(image)
+        entries = np.asarray(image.quantize(palette=self._palette, dither=Image.Dither.NONE))
+        changed = np.ones(entries.shape, bool) if self._shown is None else entries != self._shown
+        if box := Image.fromarray(changed).getbbox():
             self._write_pending()
-            shown[changed] = entries
+            left, top, right, bottom = box
             # Elsewhere it is CLEAR: long runs of one value compress to almost nothing.
-            rows, columns = np.divmod(changed, pixels.shape[1])
-            top, left = int(rows[0]), int(columns.min())
-            part = np.full((rows[-1] - top + 1, columns.max() - left + 1), CLEAR, dtype=np.uint8)
-            part[rows - top, columns - left] = entries
-            self._pending = part, (left, top)
-        self._last, self._count = pixels, self._count + 1
+            part = np.where(changed, entries, CLEAR)[top:bottom, left:right]
+            self._pending = part.astype(np.uint8), (left, top)
+        self._shown, self._count = entries, self._count + 1
 
     def close(self) -> None:
         """Write the last frame and the end."""
         self._write_pending()
         self._file.write(b";")
 
-    def _begin(self, pixels: Pixels) -> None:
+    def _begin(self, image: Image) -> None:
         """Write the size, the palette, and that the film repeats."""
-        colors = _palette(pixels)
-        self._nearest = _nearest(colors)
-        self._shown = np.full(pixels.shape, CLEAR, dtype=np.uint8)
-        height, width = pixels.shape
-        sides = width.to_bytes(2, "little") + height.to_bytes(2, "little")
-        self._file.write(b"GIF89a" + sides + b"\xf7\x00\x00" + colors.tobytes().ljust(768, b"\0"))
+        from PIL.Image import new
+
+        colors = _palette(np.asarray(image)).tobytes()
+        self._palette = new("P", (1, 1))
+        self._palette.putpalette(colors)
+        sides = b"".join(side.to_bytes(2, "little") for side in image.size)
+        self._file.write(b"GIF89a" + sides + b"\xf7\x00\x00" + colors.ljust(768, b"\0"))
         self._file.write(b"!\xff\x0bNETSCAPE2.0\x03\x01\x00\x00\x00")
 
     def _write_pending(self) -> None:
@@ -93,7 +90,7 @@ class Gif:
         entries, corner = self._pending
         now = round(100 * self._count / self._fps)
         for block in GifImagePlugin.getdata(
-            Image.frombytes("P", entries.shape[::-1], entries.tobytes()),
+            Image.fromarray(entries),
             corner,
             duration=min(10 * (now - self._written), LONGEST),
             transparency=CLEAR,
@@ -103,41 +100,24 @@ class Gif:
         self._pending, self._written = None, now
 
 
-def _palette(pixels: Pixels) -> Entries:
-    """Return a palette (k, 3), k <= 255.
+def _palette(pixels: Entries) -> Entries:
+    """Return a palette (k, 3), k <= 255, for a first picture (rows, columns, 3).
 
-    It has the first picture's colours, those of the banner at the end, tints, and a coarse cube.
+    It has its colours, those of the banner at the end, tints, and a coarse cube.
     """
     from mars2d.output.raster.theme import PRINTED
 
-    values, counts = np.unique(pixels & 0xFFFFFF, return_counts=True)
+    codes, counts = np.unique(pixels @ (1 << 16, 1 << 8, 1), return_counts=True)
     order = np.argsort(-counts, kind="stable")
-    seen = np.column_stack([values >> 16, values >> 8 & 255, values & 255])[order].astype(int)
+    seen = np.column_stack([codes >> 16, codes >> 8 & 255, codes & 255])[order]
     vivid = seen[(counts[order] >= 4) & (np.ptp(seen, axis=1) > 60)][: FEW // 2]
     banners = [list(bytes.fromhex(color[1:])) for color in (PRINTED.over, PRINTED.failed)]
     vivid = np.concatenate([banners, vivid])
     tints = [255 + np.rint(share * (vivid - 255)).astype(int) for share in TINTS]
     cube = np.array(list(product((0, 64, 128, 191, 255), repeat=3)))
     wanted = np.concatenate([seen[:FEW], vivid, *tints, cube])
-    # Of colours that look alike, only the first.
-    first = np.unique(wanted // 6, axis=0, return_index=True)[1]
-    return wanted[np.sort(first)][:CLEAR].astype(np.uint8)
-
-
-def _nearest(colors: Entries) -> Entries:
-    """Return the entries of a palette (k, 3) for all colours of 6 bits a channel, (2**18,)."""
-    from PIL import Image
-
-    cells, palette = np.arange(1 << 18), Image.new("P", (1, 1))
-    middles = 4 * np.column_stack([cells >> 12, cells >> 6 & 63, cells & 63]) + 2
-    palette.putpalette(colors.tobytes())
-    every = Image.frombytes("RGB", (512, 512), middles.astype(np.uint8).tobytes())
-    found = np.array(every.quantize(palette=palette, dither=Image.Dither.NONE)).ravel()
-    red, green, blue = colors[::-1].astype(int).T  # its own are exact; of two alike, the first
-    found[_codes(red << 16 | green << 8 | blue)] = np.arange(len(colors))[::-1]
-    return found
-
-
-def _codes(pixels: NDArray[Any]) -> NDArray[Any]:
-    """Return colours with 6 bits a channel, 0 to 2**18 - 1."""
-    return (pixels >> 6 & 0x3F000) | (pixels >> 4 & 0xFC0) | (pixels >> 2 & 0x3F)
+    kept = wanted[:1]
+    for color in wanted[1:]:
+        if np.abs(kept - color).max(axis=1).min() >= ALIKE:
+            kept = np.vstack([kept, color])
+    return kept[:CLEAR].astype(np.uint8)

@@ -59,6 +59,7 @@ def _looks(record: Rows) -> dict[str, Any]:
         "Stop_time": scenario.stop_time,
         "Workspace": np.array(workspace) if workspace else np.empty((0, 2)),
         "Bounds": np.array([scenario.bounds]),
+        "Map": {"Obstacle": _structs("Vertex", map(np.array, scenario.obstacles))},
         "Non_holonomic": np.array([[not drive.holonomic for drive in drives]]),
         "Command_delay": scenario.command_delay,
         "Exp_over": record.finished,
@@ -86,6 +87,7 @@ def _looks(record: Rows) -> dict[str, Any]:
             "Wake_style": animation.wake_style,
             "Playback_speed": animation.playback_speed,
             "Base_colors": _cell(animation.base_colors),
+            "Colors": _cell(scenario.colors),
         },
         "Seed": np.int64(record.seed),
         "Sensors": {},
@@ -93,6 +95,11 @@ def _looks(record: Rows) -> dict[str, Any]:
             fields[name]: np.array(robots) + 1.0 for name, robots in record.sensor_robots.items()
         },
     }
+
+
+def _structs(field: str, values: Iterable[NDArray[Any]]) -> NDArray[Any]:
+    """Return a struct array with one field, (1, m)."""
+    return np.array([(value,) for value in values], dtype=[(field, object)]).reshape(1, -1)
 
 
 def _cell(texts: Iterable[str]) -> NDArray[Any]:

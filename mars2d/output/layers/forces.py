@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from math import floor, log10
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -115,18 +113,6 @@ def _touching_points(frame: Frame) -> Float:
 
 def in_newtons(force: float) -> str:
     """Return a force as it is read: 0.25 N, 4.9 N, 12 N, 2.4 kN."""
-    force = as_read(force)
-    if force >= 1000:
-        return f"{force / 1000:.3g} kN"
-    return f"{force:.{_decimals(force)}f} N"
-
-
-def as_read(force: float) -> float:
-    """Return a force rounded to the digits with which it is read, newtons."""
-    return round(force, _decimals(force))
-
-
-def _decimals(force: float) -> int:
     if force >= 999.5:
-        return 2 - floor(log10(force))
-    return 2 if force < 0.995 else 1 if force < 9.95 else 0
+        return f"{force / 1000:.3g} kN"
+    return f"{force:.{2 if force < 0.995 else 1 if force < 9.95 else 0}f} N"

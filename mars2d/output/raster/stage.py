@@ -140,7 +140,7 @@ class Stage:
         self.memory = memory
         self._canvas: Canvas | None = None
         self._key: tuple[Hashable, ...] = ()
-        self._scenario: Scenario | None = None
+        self._made_of: list[object] = []  # what the canvas shows
         self._sensed: pygame.Surface | None = None
         self._sensed_of: tuple[object, ...] = ()
         self._places: dict[int, int] = {}  # of the names in the last picture
@@ -241,13 +241,18 @@ class Stage:
         """Return the canvas for a camera; an older one for a moment, if hurried."""
         surface, frame, camera, layers, plot = shot
         size = surface.get_size()
-        stands = frozenset(layer.name for layer in standing())
-        began = b"".join(poses.tobytes() for poses in starts(frame))
-        key = layers.on & stands, size, tuple(plot), self.painter.ui, self.painter.theme, began
-        canvas = self._canvas
-        if key != self._key or frame.scenario is not self._scenario:
+        scenario, standing_ones = frame.scenario, {layer.name for layer in standing()}
+        seen = standing_ones & {layer.name for layer in layers.seen(scenario.animation)}
+        of: list[object] = [scenario.surfaces, scenario.workspace, *scenario.addons]
+        began = b""
+        if layers.trails or "starts" in seen:
+            of, began = [scenario], b"".join(poses.tobytes() for poses in starts(frame))
+        looks = size, tuple(plot), self.painter.ui, self.painter.theme
+        key = frozenset(seen), scenario.on_exit, scenario.bounds, began, looks
+        canvas, made_of = self._canvas, self._made_of
+        if key != self._key or len(of) != len(made_of) or not all(map(is_, of, made_of)):
             canvas = None
-        self._key, self._scenario = key, frame.scenario
+        self._key, self._made_of = key, of
         if canvas is not None and hurried and canvas.seconds > PATIENCE:
             if canvas.shows(camera, plot) or perf_counter() - canvas.made < MAX_AGE:
                 return canvas

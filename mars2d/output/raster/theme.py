@@ -6,7 +6,6 @@ B. Ottosson (2020), in which equal steps of lightness look equal.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -21,9 +20,8 @@ class Tone(NamedTuple):
     pale: str
 
 
-@dataclass(frozen=True, slots=True)
-class Theme:
-    """The colours of the window's parts, and the conversion of scenes' colours.
+class Theme(NamedTuple):
+    """The colours of the window's parts, and the conversion of scenes' colours; by default light.
 
     page: around the workspace. paper: the workspace, on which scenes are drawn. bar: header, footer
     and time bar. plate: panels over the picture. ink, text, muted: text, by importance. running,
@@ -31,33 +29,33 @@ class Theme:
     text in `on_banner`.
     """
 
-    dark: bool
-    page: str
-    paper: str
-    bar: str
-    plate: str
-    veil: str
-    edge: str
-    grid: str
-    grid_axis: str
-    ink: str
-    text: str
-    muted: str
-    key: str
-    key_edge: str
-    track: str
-    running: Tone
-    waiting: Tone
-    past: Tone
-    hand: Tone
-    error: Tone
-    over: str
-    failed: str
-    on_banner: str
-    on_banner_muted: str
-    banner_plate: str
-    selected: str
-    effort: str
+    dark: bool = False
+    page: str = "#f4f5f7"
+    paper: str = "#ffffff"
+    bar: str = "#ffffff"
+    plate: str = "#ffffff"
+    veil: str = "#1f2933"
+    edge: str = "#dfe3e8"
+    grid: str = "#e9ecef"
+    grid_axis: str = "#d5dae0"
+    ink: str = "#1f2933"
+    text: str = "#3e4c59"
+    muted: str = "#5f6c7b"
+    key: str = "#f9fafb"
+    key_edge: str = "#cbd2d9"
+    track: str = "#d5dbe2"
+    running: Tone = Tone("#0b69a3", "#e3f1fb")
+    waiting: Tone = Tone("#8d5a00", "#fdf1d6")
+    past: Tone = Tone("#6b3fa0", "#f0e8fa")
+    hand: Tone = Tone("#0b6e4f", "#dcf4ea")
+    error: Tone = Tone("#a61b1b", "#fbe4e4")
+    over: str = "#243b53"
+    failed: str = "#a61b1b"
+    on_banner: str = "#ffffff"
+    on_banner_muted: str = "#e6ebf0"
+    banner_plate: str = "#00000040"
+    selected: str = "#0b69a3"
+    effort: str = "#8d5a00"
 
     def shade(self, color: str) -> str:
         """Return a scene's colour in this theme, ``#rrggbb`` or ``#rrggbbaa`` as it is given.
@@ -180,37 +178,8 @@ def _colors(lab: Float) -> Float:
     return np.where(light <= 0.0031308, 12.92 * light, bright)
 
 
-LIGHT = Theme(
-    dark=False,
-    page="#f4f5f7",
-    paper="#ffffff",
-    bar="#ffffff",
-    plate="#ffffff",
-    veil="#1f2933",
-    edge="#dfe3e8",
-    grid="#e9ecef",
-    grid_axis="#d5dae0",
-    ink="#1f2933",
-    text="#3e4c59",
-    muted="#5f6c7b",
-    key="#f9fafb",
-    key_edge="#cbd2d9",
-    track="#d5dbe2",
-    running=Tone("#0b69a3", "#e3f1fb"),
-    waiting=Tone("#8d5a00", "#fdf1d6"),
-    past=Tone("#6b3fa0", "#f0e8fa"),
-    hand=Tone("#0b6e4f", "#dcf4ea"),
-    error=Tone("#a61b1b", "#fbe4e4"),
-    over="#243b53",
-    failed="#a61b1b",
-    on_banner="#ffffff",
-    on_banner_muted="#e6ebf0",
-    banner_plate="#00000040",
-    selected="#0b69a3",
-    effort="#8d5a00",
-)
-
-PRINTED = replace(LIGHT, muted="#7b8794")
+LIGHT = Theme()
+PRINTED = Theme(muted="#7b8794")
 """For pictures and films: small text may be paler, since they can be enlarged."""
 
 DARK = Theme(
@@ -236,8 +205,6 @@ DARK = Theme(
     error=Tone("#ffa199", "#4c1d1f"),
     over="#2c4b6b",
     failed="#8e2226",
-    on_banner="#ffffff",
-    on_banner_muted="#e6ebf0",
     banner_plate="#00000059",
     selected="#63b8f5",
     effort="#f2c063",

@@ -21,8 +21,9 @@ class FollowRobot(Paced):
     title: ClassVar[str] = "after another robot"
 
     leader: str | None = text(
-        default=None, optional=True, doc="the name of the other robot; None: its nearest neighbour"
-    )
+        default=None, optional=True, doc="the name of the other robot; None: its nearest neighbour",
+        names="robot",
+    )  # fmt: skip
     distance: float = number(
         default=0.6,
         above=0,

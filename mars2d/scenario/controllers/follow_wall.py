@@ -41,8 +41,9 @@ class FollowWall(Paced):
         default=3.0, above=0, high=100, unit="1/m", doc="how steeply it returns to its distance"
     )
     sensor: str = text(
-        default="range_finder", doc="the name of its sensor, a RangeFinder or a SonarRing"
-    )
+        default="range_finder", doc="the name of its sensor, a RangeFinder or a SonarRing",
+        names="sensor",
+    )  # fmt: skip
     field_of_view: float = sight_angle(default=2 * pi, doc="that of its sensor")
 
     @property

@@ -29,7 +29,9 @@ class Wander(Paced):
     needs: ClassVar[tuple[Sensor, ...]] = (Proximity(range=0.4, field_of_view=2.0),)
 
     turn: float = number(default=1.5, above=0, high=1e3, unit="s", doc="mean time of backing off")
-    sensor: str = text(default="proximity", doc="the name of its sensor, a Proximity or a Bumper")
+    sensor: str = text(
+        default="proximity", doc="the name of its sensor, a Proximity or a Bumper", names="sensor"
+    )
 
     @property
     def reads(self) -> Sequence[str]:

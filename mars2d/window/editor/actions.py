@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from mars2d.bodies.props import Ball, Bar, Box, Gate, Puck
 from mars2d.window.editor.desk import Desk
@@ -61,120 +61,77 @@ TOOLS: tuple[tuple[str, str, Callable[[Desk], Tool], str], ...] = (
 )
 """Of each tool: its name, its key, how it is made, and its line of help."""
 
-MOUSE = (
-    Action("click", "select; with Shift one more", ("Click",)),
-    Action("drag", "move; from an empty place, select all in the rectangle", ("Drag",)),
-    Action("turn", "its handle turns; with Shift in steps of 15 degrees", ("Ring",)),
-    Action("corner", "moves a corner, or resizes a box; the dots add a corner", ("Corner",)),
-    Action("zoom", "zoom about the pointer", ("Wheel",)),
-    Action("pan", "move the picture; so does the middle button", ("Space drag",)),
-)
-
-NUDGE = "move the selection by a grid step; with Shift by a tenth"
-
 
 def actions_of(editor: Editor) -> dict[str, tuple[Action, ...]]:
     """Return all that can be done in an editor, in the groups of the help."""
     desk, dialogs, looks = editor.desk, editor.dialogs, editor.looks.actions
-    history, fit = desk.history, editor.viewpoint.fit
+    history, fit, zoom = desk.history, editor.viewpoint.fit, editor.zoom
 
-    def button(name: str, key: str, words: str, act: Callable[[], object]) -> Action:
+    def key(
+        name: str, keys: str, words: str, act: Callable[[], object] | None = None,
+        *also: str, **more: Any,
+    ) -> Action:  # fmt: skip
+        labels = ("←", "→", "↑", "↓") if keys == "arrows" else (keys,)
+        return Action(name, words, labels, act, also, **more)
+
+    def button(name: str, keys: str, words: str, act: Callable[[], object]) -> Action:
         on = partial(editor.is_on, name)
-        return Action(name, words, (key,), act, title=words.capitalize(), icon=ICONS[name], on=on)
+        return key(name, keys, words, act, title=words.capitalize(), icon=ICONS[name], on=on)
 
-    tools = (
-        button(name, key, words, partial(editor.choose, name)) for name, key, _, words in TOOLS
-    )
-    change = (
-        Action("pose", "type x y, or x y degrees, for the selection", ("=",), editor.ask_pose),
-        Action("nudge", NUDGE, ("←", "→", "↑", "↓"), repeats=True),
-        Action(
-            "delete",
-            "remove the selection, or its corner",
-            ("Del",),
-            desk.remove,
-            also=("Backspace",),
-        ),
-        Action("duplicate", "duplicate the selection", ("Ctrl D",), desk.duplicate),
-        Action("all", "select all", ("Ctrl A",), editor.select_all),
-        Action("next", "select the next item", ("Tab",), editor.select_next),
-        Action("properties", "choose a property to change", ("F2",), editor.list_properties),
-        Action(
-            "undo",
-            "undo",
-            ("Ctrl Z",),
-            editor.undo,
-            title="Undo",
-            when=lambda: history.can_undo,
-            repeats=True,
-        ),
-        Action(
-            "redo",
-            "redo",
-            ("Ctrl Y",),
-            desk.redo,
-            title="Redo",
-            also=("Ctrl Shift Z",),
-            when=lambda: history.can_redo,
-            repeats=True,
-        ),
-    )
-    look = (
-        button("snap", "G", "snap to the grid on and off", editor.switch_grid),
-        Action("names", "names on and off", ("I",), editor.switch_names),
-        Action("fit", "fit the workspace into the window", ("F",), lambda: fit(desk.draft.sketch)),
-        Action("help", "all keys on and off", ("F1",), editor.help.turn),
-        Action("escape", "leave the tool, deselect", ("Esc",), editor.escape),
-        Action("dark", "dark or light", ("D",), looks["dark"]),
-        Action("text", "size of text and lines: for the back row", ("Z",), looks["text"]),
-    )
-    live = (
-        Action(
-            "now",
-            "go on from now with the drawing",
-            ("Enter",),
-            partial(dialogs.apply, "now"),
-            title="Go on",
-            on=lambda: True,
-        ),
-        Action(
-            "start",
-            "run the drawing from the start",
-            ("Shift Enter",),
-            partial(dialogs.apply, "start"),
-            title="From the start",
-        ),
-    )
+    here = (
+        key("now", "Enter", "go on from now with the drawing", partial(dialogs.apply, "now"),
+            title="Go on", on=lambda: True),
+        key("start", "Shift Enter", "run the drawing from the start",
+            partial(dialogs.apply, "start"), title="From the start"),
+    )  # fmt: skip
     file = (
-        Action(
-            "save",
-            "save as a scenario file (TOML)",
-            ("Ctrl S",),
-            dialogs.save,
-            title="Save",
-            on=lambda: history.changed,
-        ),
-        Action(
-            "leave",
-            "leave; asks first if something would be lost",
-            ("Ctrl Q",),
-            dialogs.leave,
-            also=("Ctrl W",),
-        ),
-    )
-    run = Action(
-        "run",
-        "save and run; closing the run returns here",
-        ("F5",),
-        dialogs.run,
-        title="Run",
-        also=("Ctrl R",),
-        on=lambda: not history.changed,
-    )
+        key("save", "Ctrl S", "save as a scenario file (TOML)", dialogs.save,
+            title="Save", on=lambda: history.changed),
+        key("leave", "Ctrl Q", "leave; asks first if something would be lost", dialogs.leave,
+            "Ctrl W"),
+    )  # fmt: skip
+    run = key("run", "F5", "save and run; closing the run returns here", dialogs.run, "Ctrl R",
+              title="Run", on=lambda: not history.changed)  # fmt: skip
     return {
-        "Tools": tuple(tools),
-        "Change": change,
-        "Look": look,
-        "File": (*live, *file) if editor.live else (*file, run),
-        "Mouse": MOUSE,
-    }
+        "Tools": tuple(
+            button(name, letter, words, partial(editor.choose, name))
+            for name, letter, _, words in TOOLS
+        ),
+        "Change": (
+            key("pose", "=", "type x y, x y degrees, or a name: there goes the selection",
+                editor.ask_pose),
+            key("nudge", "arrows", "move the selection by a grid step; with Shift by a tenth",
+                repeats=True),
+            key("delete", "Del", "remove the selection, or its corner", desk.remove, "Backspace"),
+            key("duplicate", "Ctrl D", "duplicate the selection, or its corner", desk.duplicate),
+            key("all", "Ctrl A", "select all", editor.select_all),
+            key("next", "Tab", "select the next item", editor.select_next),
+            key("more", "Shift Tab", "select the next item, too",
+                partial(editor.select_next, too=True)),
+            key("properties", "F2", "choose a property to change", editor.reach_panel),
+            key("undo", "Ctrl Z", "undo", editor.undo,
+                title="Undo", when=lambda: history.has(-1), repeats=True),
+            key("redo", "Ctrl Y", "redo", desk.redo, "Ctrl Shift Z",
+                title="Redo", when=lambda: history.has(1), repeats=True),
+        ),
+        "Look": (
+            button("snap", "G", "snap to the grid on and off", editor.switch_grid),
+            key("names", "I", "names on and off", editor.switch_names),
+            key("fit", "F", "fit the workspace into the window", lambda: fit(desk.draft.sketch)),
+            key("nearer", "Ctrl +", "zoom in", partial(zoom, 2.0), "Ctrl =", "Ctrl [+]"),
+            key("farther", "Ctrl \N{MINUS SIGN}", "zoom out", partial(zoom, -2.0), "Ctrl [-]"),
+            key("help", "F1", "all keys on and off", editor.help.turn),
+            key("escape", "Esc", "leave the tool, deselect", editor.escape),
+            key("dark", "D", "dark or light", looks["dark"]),
+            key("text", "Z", "size of text and lines: for the back row", looks["text"]),
+        ),
+        "File": (*here, *file) if editor.live else (*file, run),
+        "Mouse": (
+            key("click", "Click", "select; with Shift one more"),
+            key("drag", "Drag", "move; from an empty place, select all in the rectangle"),
+            key("turn", "Ring", "its handle turns; with Shift in steps of 15 degrees"),
+            key("corner", "Corner", "moves a corner, or resizes a box; the dots add a corner"),
+            key("zoom", "Wheel", "zoom about the pointer"),
+            key("pan", "Space drag", "move the picture; so does the middle button"),
+        ),
+    }  # fmt: skip

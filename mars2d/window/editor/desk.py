@@ -19,14 +19,14 @@ MAX_DRAFTS = 500
 
 
 class History:
-    """A list of drafts, and the index of the present one."""
+    """A list of drafts, and the index of the present one; saved: that of the file, if any."""
 
     def __init__(self, draft: Draft) -> None:
         """Start with a draft that counts as saved."""
         self._drafts = [draft]
         self._place = 0
         self._tag = ""
-        self._saved: Draft | None = draft
+        self.saved: Draft | None = draft
 
     @property
     def draft(self) -> Draft:
@@ -36,7 +36,7 @@ class History:
     @property
     def changed(self) -> bool:
         """Whether the present draft differs from the saved one."""
-        return self.draft is not self._saved and self.draft != self._saved
+        return self.draft is not self.saved and self.draft != self.saved
 
     def put(self, draft: Draft, tag: str = "") -> None:
         """Continue with a draft. Consecutive changes with the same tag are undone as one."""
@@ -48,31 +48,20 @@ class History:
         del self._drafts[:-MAX_DRAFTS]
         self._place, self._tag = len(self._drafts) - 1, tag
 
-    @property
-    def can_undo(self) -> bool:
-        """Whether there is anything to undo."""
-        return self._place > 0
-
-    @property
-    def can_redo(self) -> bool:
-        """Whether there is anything to redo."""
-        return self._place + 1 < len(self._drafts)
+    def has(self, by: int) -> bool:
+        """Return whether there are so many changes to redo, or for numbers below 0 to undo."""
+        return 0 <= self._place + by < len(self._drafts)
 
     def go(self, by: int) -> bool:
         """Undo or redo changes; return whether there were that many."""
-        self._tag, place = "", self._place + by
-        there = 0 <= place < len(self._drafts)
-        self._place = place if there else self._place
+        there, self._tag = self.has(by), ""
+        self._place += by if there else 0
         return there
 
-    def mark_saved(self, saved: Draft) -> None:
+    def save(self, saved: Draft) -> None:
         """Count the present draft as saved; saved: it, with the title that it has got."""
-        self._drafts[self._place] = self._saved = saved
+        self._drafts[self._place] = self.saved = saved
         self._tag = ""
-
-    def mark_unsaved(self) -> None:
-        """Count no draft as saved."""
-        self._saved = None
 
 
 class Desk:
@@ -109,6 +98,8 @@ class Desk:
 
     def hold(self, to: Callable[[Point, bool], Draft], point: Point, *, shift: bool) -> None:
         """Show the draft of a drag to a point; an InputError is shown, and it stays as it was."""
+        if self.warns:
+            self.say("")
         try:
             self._held = to(point, shift)
         except InputError as error:
@@ -132,17 +123,17 @@ class Desk:
 
     def undo(self) -> None:
         """Undo the last change."""
-        before = self.draft
-        if not self.drop() and not self.history.go(-1):
-            self.say("there is nothing to undo")
-        self._show(before)
+        self._go(-1, "undo")
 
     def redo(self) -> None:
         """Redo the last change that was undone."""
-        before = self.draft
         self.drop()
-        if not self.history.go(1):
-            self.say("there is nothing to redo")
+        self._go(1, "redo")
+
+    def _go(self, by: int, words: str) -> None:
+        before = self.draft
+        if not self.drop() and not self.history.go(by):
+            self.say(f"there is nothing to {words}")
         self._show(before)
 
     # -- the selection ----------------------------------------------------------------------------
@@ -193,10 +184,18 @@ class Desk:
             return
         left = (*corners[: self.corner], *corners[self.corner + 1 :])
         self.corner = None
-        self.put(self.draft.with_value(item, left))
+        self.put(self.draft.with_values({item: left}))
 
     def duplicate(self) -> None:
-        """Put a copy beside the selection, and select the copy."""
+        """Put a copy beside the selection, and select it; of a corner, half-way to the next one."""
+        corners = None if self.only is None else self.draft.corners(self.only)
+        if self.only is not None and corners is not None and self.corner is not None:
+            a, b = corners[self.corner], corners[(self.corner + 1) % len(corners)]
+            middle = tidy((a[0] + b[0]) / 2), tidy((a[1] + b[1]) / 2)
+            self.corner += 1
+            new = (*corners[: self.corner], middle, *corners[self.corner :])
+            self.put(self.draft.with_values({self.only: new}))
+            return
         items = [item for item in self.selection if item.kind != "workspace"]
         if items:
             aside = Motion(by=(2 * self.step, -2 * self.step))
@@ -212,7 +211,7 @@ class Desk:
         if self.corner is not None and self.only is not None:
             corners = list(self.draft.corners(self.only) or ())
             corners[self.corner] = moved.point(corners[self.corner])
-            self.put(self.draft.with_value(self.only, tuple(corners)), tag="nudge")
+            self.put(self.draft.with_values({self.only: tuple(corners)}), tag="nudge")
         elif self.selection:
             self.put(self.draft.moved(self.selection, moved), tag="nudge")
 

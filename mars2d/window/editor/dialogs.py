@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
@@ -104,8 +104,7 @@ class Dialogs:
             self._desk.say(str(error), warns=True)
             return
         if not self._live:
-            titled = self._desk.draft.base.replace(title=scenario.title)
-            self._desk.history.mark_saved(replace(self._desk.draft, base=titled))
+            self._desk.history.save(self._desk.draft.with_base(title=scenario.title))
         self._desk.say(said)
         if then is not None:
             then()

@@ -1,17 +1,17 @@
-"""The draft that the editor works on: the items of a scenario, each valid by itself."""
+"""The draft that the editor works on: a scenario that need not be valid as a whole."""
 
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
-from itertools import count
+from collections import Counter
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import count, groupby
 from typing import Any, Self, cast
 
 import numpy as np
 
-from mars2d.addons.base import Addon
 from mars2d.addons.beacon import Beacon
 from mars2d.addons.map import Map
 from mars2d.addons.waypoints import Waypoints
@@ -24,14 +24,17 @@ from mars2d.core.description import snake_case
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Outline, Point, bounds_of
 from mars2d.record.frame import Frame
-from mars2d.scenario.controllers import FollowRobot
 from mars2d.scenario.random_starts import RandomStarts
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.editor.item import FIELDS, Item, Kind, Motion
+from mars2d.window.editor.item import Item, Kind, Motion
 
-DRAWN = (Map, Waypoints, Beacon)
-"""The add-ons that are drawn with the mouse."""
+FIELDS: dict[Kind, tuple[type[Any], str]] = {
+    "robot": (Scenario, "robots"), "prop": (Scenario, "props"),
+    "outline": (Map, "outlines"), "wall": (Map, "walls"), "waypoint": (Waypoints, "routes"),
+}  # fmt: skip
+"""What holds the items of a kind, the scenario or its first add-on of a class, and in which field.
+Each beacon is an add-on of its own."""
 
 BLANK: Outline = Scenario.__dataclass_fields__["workspace"].default
 """The area shown of an empty draft, metres."""
@@ -39,146 +42,108 @@ BLANK: Outline = Scenario.__dataclass_fields__["workspace"].default
 
 @dataclass(frozen=True)
 class Draft:
-    """The items of a scenario; `base` is the scenario that holds everything else.
+    """A scenario of valid parts, which may not go together, with its items.
 
-    Each item is valid by itself, except outlines, which may cross themselves while they are drawn.
-    outlines, walls: those of the first Map. routes: the waypoints, one list per robot. starts:
-    which bodies start at random.
+    base: the scenario, unchecked; it may have no robots.
     """
 
     base: Scenario
-    robots: tuple[Robot, ...]
-    props: tuple[Prop, ...]
-    joints: tuple[Joint, ...]
-    outlines: tuple[Outline, ...]
-    walls: tuple[Outline, ...]
-    routes: tuple[Outline, ...]
-    beacons: tuple[Beacon, ...]
-    starts: tuple[RandomStarts, ...]
-    workspace: Outline | None
-
-    @classmethod
-    def of(cls, scenario: Scenario) -> Self:
-        """Return the draft of a scenario."""
-        chart, routes = _first(Map, scenario.addons), _first(Waypoints, scenario.addons)
-        drawn = () if routes is None else tuple(routes.routes)[: len(scenario.robots)]
-        return cls(
-            base=scenario,
-            robots=tuple(scenario.robots),
-            props=tuple(scenario.props),
-            joints=tuple(scenario.joints),
-            outlines=() if chart is None else tuple(chart.outlines),
-            walls=() if chart is None else tuple(chart.walls),
-            routes=(*drawn, *[()] * (len(scenario.robots) - len(drawn))),
-            beacons=tuple(_all(Beacon, scenario.addons)),
-            starts=tuple(scenario.random_starts),
-            workspace=scenario.workspace,
-        )
 
     @classmethod
     def empty(cls, scenario: Scenario) -> Self:
         """Return the draft of a scenario without its robots; no scenario can be empty."""
-        draft = cls.of(scenario)
+        draft = cls(scenario)
         return draft.without([item for item in draft.items() if item.kind == "robot"])
-
-    # -- as a scenario --------------------------------------------------------------------------
 
     def scenario(self) -> Scenario:
         """Return the scenario. Raises InputError if it is not valid."""
-        return self.base.replace(
-            robots=self.robots,
-            props=self.props,
-            joints=self.joints,
-            random_starts=self.starts,
-            workspace=self.workspace,
-            addons=self._addons(self.outlines, self.base.addons),
-        )
+        return self.base.replace()
 
     @cached_property
     def sketch(self) -> Scenario:
-        """The scenario for drawing: unchecked, and without invalid outlines. Never simulate it."""
-        return self._sketch(self.base.addons)
+        """The scenario for drawing, unchecked. Never simulate it."""
+        shown = self.with_base(animation=self.base.animation.replace(show_initial_pose=False)).base
+        if self.base.workspace is None and not (self.robots or self.props or shown.obstacles):
+            return self.with_base(workspace=BLANK).base
+        return shown
 
     @cached_property
-    def bare_sketch(self) -> Scenario:
-        """The sketch with only the add-ons that are drawn with the mouse."""
-        return self._sketch(_all(DRAWN, self.base.addons))
+    def bare(self) -> Self:
+        """The draft without add-ons other than those that are drawn with the mouse."""
+        drawn = (addon for addon in self.base.addons if isinstance(addon, (Map, Waypoints, Beacon)))
+        return self.with_base(addons=tuple(drawn))
 
-    def _sketch(self, addons: Sequence[Addon]) -> Scenario:
-        sound = [outline for outline in self.outlines if not flaw(outline)]
-        animation = self.base.animation.replace(show_initial_pose=False)
-        drawn = copy.copy(self.base)
-        drawn.__dict__.update(
-            robots=self.robots,
-            props=self.props,
-            joints=self.joints,
-            workspace=self.workspace,
-            addons=tuple(self._addons(sound, addons)),
-            animation=animation,
-        )
-        if self.workspace is None and not (self.robots or self.props or drawn.obstacles):
-            drawn.__dict__["workspace"] = BLANK
-        return drawn
-
-    def _addons(self, outlines: Sequence[Outline], addons: Sequence[Addon]) -> list[Addon]:
-        """Return the base's add-ons, those that are drawn replaced by their present state."""
-        drawn = self._drawn_addons(outlines)
-        base = self.base.addons
-        edited = [_first(Map, base), _first(Waypoints, base), *_all(Beacon, base)]
-        ids = {id(addon) for addon in edited}
-        result = []
-        for addon in addons:
-            if id(addon) not in ids:
-                result.append(addon)
-            elif addon.key in drawn:
-                result.append(drawn.pop(addon.key))
-        return [*result, *drawn.values()]
-
-    def _drawn_addons(self, outlines: Sequence[Outline]) -> dict[str, Addon]:
-        """Return the map, the waypoints and the beacons that exist, by their keys."""
-        result: dict[str, Addon] = {}
-        if outlines or self.walls:
-            own = _first(Map, self.base.addons)
-            make = _chart if type(own) in (Map, type(None)) else _chart.__wrapped__
-            chart = make(own, tuple(outlines), self.walls)
-            result[chart.key] = chart
-        routes = self.routes
-        while routes and not routes[-1]:
-            routes = routes[:-1]
-        if routes:
-            known = _first(Waypoints, self.base.addons)
-            ways = Waypoints(routes) if known is None else known.replace(routes=routes)
-            result[ways.key] = ways
-        return result | {beacon.key: beacon for beacon in self.beacons}
+    def frame(self) -> Frame:
+        """Return the instant before the start."""
+        pose = np.array([robot.pose for robot in self.robots], dtype=float).reshape(-1, 3).T
+        prop_pose = np.array([prop.pose for prop in self.props], dtype=float).reshape(-1, 3).T
+        nothing = np.empty((0, 3, len(self.robots)))
+        return Frame(self.sketch, 0.0, 0, pose, nothing, prop_pose=prop_pose)
 
     # -- its items ------------------------------------------------------------------------------
+
+    @property
+    def robots(self) -> tuple[Robot, ...]:
+        """The robots."""
+        return tuple(self.base.robots)
+
+    @property
+    def props(self) -> tuple[Prop, ...]:
+        """The props."""
+        return tuple(self.base.props)
+
+    def listed(self, kind: Kind) -> tuple[Any, ...]:
+        """Return the items of a kind; of waypoints the routes, one per robot."""
+        if kind == "beacon":
+            return tuple(addon for addon in self.base.addons if isinstance(addon, Beacon))
+        if kind == "workspace":
+            return () if self.base.workspace is None else (self.base.workspace,)
+        owner, field = self._owner(kind), FIELDS[kind][1]
+        found = () if owner is None else tuple(getattr(owner, field))
+        if kind == "waypoint":
+            robots = len(self.robots)
+            return (*found[:robots], *[()] * (robots - len(found)))
+        return found
+
+    def _owner(self, kind: Kind) -> Any:
+        """Return what holds the items of a kind, None if there is none yet."""
+        parts = (self.base, *self.base.addons)
+        return next((part for part in parts if isinstance(part, FIELDS[kind][0])), None)
 
     def items(self) -> tuple[Item, ...]:
         """Return all items but the workspace, the lowest first."""
         plain: tuple[Kind, ...] = ("outline", "wall", "prop", "robot", "beacon")
-        found = [Item(kind, i) for kind in plain for i in range(len(getattr(self, FIELDS[kind])))]
-        ways = [
-            Item("waypoint", i, k) for i, route in enumerate(self.routes) for k in range(len(route))
-        ]
+        found = [Item(kind, i) for kind in plain for i in range(len(self.listed(kind)))]
+        routes = enumerate(self.listed("waypoint"))
+        ways = [Item("waypoint", i, k) for i, route in routes for k in range(len(route))]
         return (*found, *ways)
 
     def new_since(self, before: Draft) -> list[Item]:
         """Return the items that an earlier draft did not have as they are now."""
-        known = {id(before.value(item)) for item in before.items()}
-        return [item for item in self.items() if id(self.value(item)) not in known]
+        known = Counter(map(before._key, before.items()))
+        new = []
+        for item in self.items():
+            key = self._key(item)
+            if known[key]:
+                known[key] -= 1
+            else:
+                new.append(item)
+        return new
+
+    def _key(self, item: Item) -> tuple[object, ...]:
+        """Return what tells an item from others of its kind, or from those on other routes."""
+        value = self.value(item)
+        owner = item.number if item.kind == "waypoint" else None
+        return item.kind, owner, value if isinstance(value, tuple) else id(value)
 
     def value(self, item: Item) -> Any:
         """Return what an item is: a robot, a prop, corners, a beacon, or a waypoint's point."""
-        if item.kind == "workspace":
-            return self.workspace
-        listed = getattr(self, FIELDS[item.kind])[item.number]
-        return listed[item.part] if item.kind == "waypoint" else listed
+        value = self.listed(item.kind)[item.number]
+        return value[item.part] if item.kind == "waypoint" else value
 
     def holds(self, item: Item) -> bool:
         """Return whether an item exists."""
-        if item.kind == "workspace":
-            return self.workspace is not None
-        listed = getattr(self, FIELDS[item.kind])
+        listed = self.listed(item.kind)
         if item.number >= len(listed):
             return False
         return item.kind != "waypoint" or item.part < len(listed[item.number])
@@ -224,7 +189,12 @@ class Draft:
     def _lots(self) -> list[tuple[RandomStarts, Sequence[str]]]:
         """Return the random starts with the names of their bodies."""
         robots = [str(robot.name) for robot in self.robots]
-        return [(each, each.bodies or robots) for each in self.starts]
+        return [(each, each.bodies or robots) for each in self.base.random_starts]
+
+    def joints_of(self, item: Item) -> tuple[Joint, ...]:
+        """Return the joints that hold a robot or prop."""
+        name = self.name(item)
+        return tuple(joint for joint in self.base.joints if name in (joint.a, joint.b))
 
     def bounds(self, items: Collection[Item]) -> tuple[float, float, float, float]:
         """Return (xmin, xmax, ymin, ymax) of items, metres."""
@@ -240,11 +210,66 @@ class Draft:
 
     # -- changes --------------------------------------------------------------------------------
 
+    def with_base(self, **changes: Any) -> Self:
+        """Return the draft with other fields of the scenario, which are not checked."""
+        base = copy.copy(self.base)
+        if changes.keys().isdisjoint(("addons", "workspace", "on_exit")):
+            base.__dict__["surfaces"] = self.base.surfaces  # the ground is drawn but once
+        base.__dict__.update(changes)
+        return type(self)(base)
+
+    def with_list(self, kind: Kind, listed: Sequence[Any]) -> Self:
+        """Return the draft with other items of a kind. Raises InputError for invalid outlines."""
+        addons = list(self.base.addons)
+        if kind in ("outline", "wall", "workspace"):
+            known = set(map(id, self.listed(kind)))
+            listed = [
+                corners
+                if id(corners) in known
+                else _checked(self.name(Item(kind, i)), kind, corners)
+                for i, corners in enumerate(listed)
+            ]
+        if kind == "workspace":
+            return self.with_base(workspace=listed[0] if listed else None)
+        if kind == "beacon":
+            first = next((k for k, each in enumerate(addons) if isinstance(each, Beacon)), None)
+            others = [addon for addon in addons if not isinstance(addon, Beacon)]
+            first = len(others) if first is None else first
+            return self.with_base(addons=(*others[:first], *listed, *others[first:]))
+        owner, (make, field) = self._owner(kind), FIELDS[kind]
+        if owner is self.base:
+            return self.with_base(**{field: tuple(listed)})
+        if kind == "waypoint":
+            listed = [tuple(route) for route in listed]
+            while listed and not listed[-1]:
+                listed.pop()
+        fields = {name: () for kind_, name in FIELDS.values() if kind_ is make}
+        fields |= {name: getattr(owner, name) for name in fields if owner is not None}
+        fields |= {field: tuple(listed)}
+        new = []
+        if any(fields.values()):  # without items, the add-on goes
+            new = [make(**fields) if owner is None else owner.replace(**fields)]
+        place = len(addons) if owner is None else addons.index(owner)
+        return self.with_base(addons=(*addons[:place], *new, *addons[place + 1 :]))
+
+    def with_values(self, values: Mapping[Item, Any]) -> Self:
+        """Return the draft with other robots, props, beacons, points or outlines for items."""
+        draft = self
+        for kind in dict.fromkeys(item.kind for item in values):
+            listed = list(self.listed(kind))
+            for item in (item for item in values if item.kind == kind):
+                if kind == "waypoint":
+                    route = list(listed[item.number])
+                    route[item.part] = values[item]
+                    listed[item.number] = tuple(route)
+                else:
+                    listed[item.number] = values[item]
+            draft = draft.with_list(kind, listed)
+        return draft
+
     def moved(self, items: Collection[Item], motion: Motion) -> Self:
         """Return the draft with items moved. Bodies that started at random start there now."""
-        draft = self
-        for item in items:
-            draft = draft.with_value(item, draft._moved_one(item, motion))
+        draft = self.with_values({item: self._moved_one(item, motion) for item in items})
         names = {self.name(item) for item in items if item.kind in ("robot", "prop")}
         return draft._fixed(names)._pinned(names)
 
@@ -252,7 +277,7 @@ class Draft:
         if item.kind == "waypoint":
             return motion.point(self.place(item))
         if item.kind == "beacon":
-            beacon = self.beacons[item.number]
+            beacon = self.value(item)
             if beacon.path is None:
                 return beacon.replace(at=motion.point(beacon.position))
             return beacon.replace(path=[motion.point(point) for point in beacon.path])
@@ -266,7 +291,7 @@ class Draft:
         """Return the draft with bodies that no longer start at random."""
         left = [(each, [name for name in all_ if name not in names]) for each, all_ in self._lots()]
         starts = tuple(each.replace(bodies=bodies) for each, bodies in left if bodies)
-        return self if self._lots() == left else replace(self, starts=starts)
+        return self if self._lots() == left else self.with_base(random_starts=starts)
 
     def _pinned(self, names: Collection[str]) -> Self:
         """Return the draft with the pins of hinges where those of some bodies that moved are."""
@@ -280,146 +305,97 @@ class Draft:
             pin = bodies[held].to_world(getattr(joint, f"anchor_{end}"))
             return joint.replace(**{f"anchor_{other}": seen_from(bodies.get(beside), pin)})
 
-        return replace(self, joints=tuple(map(pinned, self.joints)))
+        return self.with_base(joints=tuple(map(pinned, self.base.joints)))
 
     def _members(self) -> tuple[Robot | Prop, ...]:
         return (*self.robots, *self.props)
 
     def with_members(self, items: Collection[Item], change: Callable[[Any], Robot | Prop]) -> Self:
         """Return the draft with robots or props changed, each by a function of itself."""
-        draft = self
-        for item in items:
-            draft = draft.with_value(item, change(draft.value(item)))
+        draft = self.with_values({item: change(self.value(item)) for item in items})
         return draft._pinned({self.name(item) for item in items})
 
     def renamed(self, item: Item, name: str) -> Self:
         """Return the draft with another name of a robot or prop, wherever it is mentioned."""
         old = self.name(item)
+        if not name:
+            raise InputError("expected a name")
         if name in {part.name for part in self._members()} - {old}:
             raise InputError(f"{name!r} is the name of another body")
-
-        def new(known: Any) -> Any:
-            return name if known == old else known
-
-        joints = [joint.replace(a=new(joint.a), b=new(joint.b)) for joint in self.joints]
-        robots = [
-            robot.replace(controller=law.replace(leader=new(law.leader)))
-            if isinstance(law := robot.controller, FollowRobot)
-            else robot
-            for robot in self.robots
-        ]
-        starts = (each.replace(bodies=[*map(new, each.bodies)]) for each in self.starts)
-        draft = replace(self, robots=tuple(robots), joints=tuple(joints), starts=tuple(starts))
-        return draft.with_members([item], lambda part: part.replace(name=name))
-
-    def joints_of(self, item: Item) -> tuple[Joint, ...]:
-        """Return the joints that hold a robot or prop."""
-        name = self.name(item)
-        return tuple(joint for joint in self.joints if name in (joint.a, joint.b))
+        parts = ("robots", "props", "joints", "random_starts", "addons")
+        anew = {
+            field: tuple(part.renamed(old, name) for part in getattr(self.base, field))
+            for field in parts
+        }
+        return self.with_base(**anew).with_members([item], lambda part: part.replace(name=name))
 
     def with_joint(self, joint: Joint | None, instead: Joint | None = None) -> Self:
         """Return the draft with one more joint, or with one in place of another; None: without."""
         new = () if joint is None else (joint,)
         if instead is None:
-            draft = replace(self, joints=(*self.joints, *new))
+            draft = self.with_base(joints=(*self.base.joints, *new))
             return draft._fixed({name for each in new for name in (each.a, each.b) if name})
-        kept = [new if each is instead else (each,) for each in self.joints]
-        return replace(self, joints=tuple(joint for some in kept for joint in some))
+        kept = [new if each is instead else (each,) for each in self.base.joints]
+        return self.with_base(joints=tuple(joint for some in kept for joint in some))
 
-    def with_value(self, item: Item, value: Any) -> Self:
-        """Return the draft with another robot, prop, beacon, point or outline for an item."""
-        if item.kind == "workspace":
-            return replace(self, workspace=value)
-        field = FIELDS[item.kind]
-        listed = list(getattr(self, field))
-        if item.kind == "waypoint":
-            route = list(listed[item.number])
-            route[item.part] = value
-            value = tuple(route)
-        listed[item.number] = value
-        changes: dict[str, Any] = {field: tuple(listed)}
-        return replace(self, **changes)
+    def added(self, kind: Kind, *values: Any, robot: int = 0) -> Self:
+        """Return the draft with more items of a kind. Bodies and beacons get new names.
 
-    def added(self, kind: Kind, value: Any, robot: int = 0) -> Self:
-        """Return the draft with one more item. Bodies and beacons get new names.
-
-        robot: whose waypoint it is, at the end of its route.
+        robot: whose waypoints they are, at the end of its route.
         """
-        if kind == "waypoint":
-            route = (*self.routes[robot], value)
-            return replace(self, routes=(*self.routes[:robot], route, *self.routes[robot + 1 :]))
-        if kind in ("robot", "prop", "beacon"):
-            value = value.replace(name=self._free_name(snake_case(type(value).__name__)))
-        changes: dict[str, Any] = {FIELDS[kind]: (*getattr(self, FIELDS[kind]), value)}
-        if kind == "robot":
-            changes["routes"] = (*self.routes, ())
-        return replace(self, **changes)
-
-    def _free_name(self, kind: str) -> str:
-        """Return the first name of a kind that nothing has, for example ``robot2``."""
-        taken = {part.name for part in self._members()}
-        taken |= {addon.key for addon in (*self.base.addons, *self.beacons)}
-        return next(name for name in map(f"{kind}{{}}".format, count()) if name not in taken)
+        listed = list(self.listed(kind))
+        taken = {part.name for part in self._members()} | {a.key for a in self.base.addons}
+        for value in values:
+            if kind == "waypoint":
+                listed[robot] = (*listed[robot], value)
+            elif kind in ("robot", "prop", "beacon"):
+                names = map(f"{snake_case(type(value).__name__)}{{}}".format, count())
+                name = next(name for name in names if name not in taken)
+                taken.add(name)
+                listed.append(value.replace(name=name))
+            else:
+                listed.append(value)
+        return self.with_list(kind, listed)
 
     def without(self, items: Collection[Item]) -> Self:
         """Return the draft without items; with a body go its route and its joints."""
         gone = set(items)
         names = {self.name(item) for item in gone if item.kind in ("robot", "prop")}
-
-        def left(kind: Kind) -> tuple[Any, ...]:
-            listed = enumerate(getattr(self, FIELDS[kind]))
-            return tuple(value for i, value in listed if Item(kind, i) not in gone)
-
-        routes = tuple(
-            tuple(p for k, p in enumerate(route) if Item("waypoint", i, k) not in gone)
-            for i, route in enumerate(self.routes)
+        routes = [
+            [point for k, point in enumerate(route) if Item("waypoint", i, k) not in gone]
+            for i, route in enumerate(self.listed("waypoint"))
             if Item("robot", i) not in gone
-        )
-        plain: tuple[Kind, ...] = ("robot", "prop", "outline", "wall", "beacon")
-        kept: dict[str, Any] = {FIELDS[kind]: left(kind) for kind in plain}
-        workspace = None if Item("workspace") in gone else self.workspace
-        joints = tuple(joint for joint in self.joints if names.isdisjoint((joint.a, joint.b)))
-        draft = self._fixed(names)
-        return replace(draft, workspace=workspace, routes=routes, joints=joints, **kept)
+        ]
+        joints = tuple(joint for joint in self.base.joints if names.isdisjoint((joint.a, joint.b)))
+        draft = self._fixed(names).with_base(joints=joints)
+        plain: tuple[Kind, ...] = ("robot", "prop", "outline", "wall", "beacon", "workspace")
+        for kind in plain:
+            listed = self.listed(kind)
+            left = [value for i, value in enumerate(listed) if Item(kind, i) not in gone]
+            if len(left) < len(listed):
+                draft = draft.with_list(kind, left)
+        return draft.with_list("waypoint", routes)
 
     def copied(self, items: Collection[Item], motion: Motion) -> Self:
         """Return the draft with moved copies of items, tied to each other as these are."""
         draft, names = self, dict[str | None, str | None]({None: None})
-        for item in sorted(items):
-            draft = draft.added(item.kind, draft._moved_one(item, motion), item.number)
-            if item.kind in ("robot", "prop"):
-                copies = draft.robots if item.kind == "robot" else draft.props
-                names[self.name(item)] = copies[-1].name
-        for joint in self.joints:
+
+        def family(item: Item) -> tuple[Kind, int]:
+            return item.kind, item.number * (item.kind == "waypoint")
+
+        for (kind, robot), group in groupby(sorted(items), family):
+            models = [*group]
+            moved = (self._moved_one(item, motion) for item in models)
+            draft = draft.added(kind, *moved, robot=robot)
+            if kind in ("robot", "prop"):
+                copies = draft.listed(kind)[-len(models) :]
+                names |= {self.name(m): new.name for m, new in zip(models, copies, strict=True)}
+        for joint in self.base.joints:
             if joint.a in names and joint.b in names:
                 at = motion.point(joint.anchor_b) if joint.b is None else joint.anchor_b
                 copy_ = joint.replace(a=names[joint.a], b=names[joint.b], anchor_b=at)
                 draft = draft.with_joint(copy_)
         return draft
-
-    def frame(self, sketch: Scenario | None = None) -> Frame:
-        """Return the instant before the start; sketch: the scenario to draw, by default its own."""
-        pose = np.array([robot.pose for robot in self.robots], dtype=float).reshape(-1, 3).T
-        prop_pose = np.array([prop.pose for prop in self.props], dtype=float).reshape(-1, 3).T
-        nothing = np.empty((0, 3, len(self.robots)))
-        return Frame(sketch or self.sketch, 0.0, 0, pose, nothing, prop_pose=prop_pose)
-
-
-@lru_cache(maxsize=8)
-def _chart(own: Map | None, outlines: tuple[Outline, ...], walls: tuple[Outline, ...]) -> Map:
-    """Return the map. It is cached, since checking a map takes long."""
-    parts: dict[str, Any] = {"outlines": outlines, "walls": walls}
-    return Map(**parts) if own is None else own.replace(**parts)
-
-
-@lru_cache(maxsize=4096)
-def flaw(outline: Outline, name: str = "it", least: int = 2, *, closed: bool = True) -> str:
-    """Return the fault of an outline, in words; "" if it is valid. The rest: see `checks`."""
-    try:
-        checks.outline(name, outline, least, closed=closed)
-    except InputError as error:
-        return str(error)
-    return ""
 
 
 def seen_from(body: Rigid | None, point: Point) -> Point:
@@ -431,9 +407,7 @@ def seen_from(body: Rigid | None, point: Point) -> Point:
     return back.point(point)
 
 
-def _all(kind: type[Any] | tuple[type[Any], ...], addons: Sequence[Addon]) -> list[Any]:
-    return [addon for addon in addons if isinstance(addon, kind)]
-
-
-def _first(kind: type[Any], addons: Sequence[Addon]) -> Any:
-    return next(iter(_all(kind, addons)), None)
+def _checked(name: str, kind: Kind, corners: Any) -> Outline:
+    """Return the corners of an outline, a wall or the workspace; InputError if it is none."""
+    least = 3 if kind == "workspace" else 2
+    return checks.outline(name, corners, least, closed=kind != "wall")

@@ -27,11 +27,10 @@ from mars2d.window.editor.dialogs import Dialogs
 from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.item import Item
-from mars2d.window.editor.panel import Panel
 from mars2d.window.editor.properties import Properties
 from mars2d.window.editor.readout import minus
-from mars2d.window.editor.select import Select
-from mars2d.window.editor.sketch import Sketch, draw_culprits, draw_remarks, draw_selected
+from mars2d.window.editor.select import Handling, Select
+from mars2d.window.editor.sketch import draw_culprits, draw_remarks, draw_selected
 from mars2d.window.editor.tool import Tool
 from mars2d.window.editor.tying import Tie
 from mars2d.window.editor.verdict import Judge
@@ -40,7 +39,7 @@ from mars2d.window.screen.viewpoint import Viewpoint, wheel_notches
 from mars2d.window.widgets.actions import action_of, label_of
 from mars2d.window.widgets.buttons import Buttons
 from mars2d.window.widgets.help import Help
-from mars2d.window.widgets.menu import Entry, Menu
+from mars2d.window.widgets.menu import Menu
 from mars2d.window.widgets.slider import draw_tooltip
 from mars2d.window.widgets.text_field import TextField
 
@@ -49,9 +48,13 @@ HEADER = ("undo", "redo", "start", "now", "save", "run")
 """The actions with buttons in the header, where they are offered."""
 WIDTH, SIDE = 58.0, 46.0
 """The widths of the toolbar and of its buttons, points."""
-TALL, MAX_SHARE = 560.0, 0.115
+TALL, MAX_SHARE = 560.0, 0.15
 """The height from which on the toolbar has one column, points, and its largest share of the
 window's width."""
+PANEL, MAX_PANEL, ARENA = 268.0, 0.34, 0.42
+"""The width of the panel, points, its largest share of the window's width, and the share of the
+window that it leaves to the drawing."""
+PANEL_HINT = "Arrows choose a row and change its number, Enter opens it, Esc leaves the panel"
 STEP = 16.0
 """The height of the line below them, with the step of the grid, points."""
 ASKED = frozenset({
@@ -89,21 +92,22 @@ class Editor:
         painter = self.painter = looks.painter
         self.help = Help()
         self.document = Document(path, control)
-        draft = Draft.empty(scenario) if empty else Draft.of(scenario)
+        draft = Draft.empty(scenario) if empty else Draft(scenario)
         self.viewpoint = Viewpoint(draft.sketch, self._laid_out((1280, 720)))
         self.desk = Desk(draft, self.viewpoint)
         if changed:
-            self.desk.history.mark_unsaved()
+            self.desk.history.saved = None
         self.judge = Judge(draft)
         self.dialogs = Dialogs(
             self.desk, self.document, self.judge, scenario,
             live=live, complete=self._complete,
         )  # fmt: skip
-        self.menu, self.panel = Menu(), Panel(painter)
+        self.menu, self.panel = Menu(), Menu(docked=True)
         self.properties = Properties(
-            self.desk, self.dialogs, self.document, self.menu, self.choose, self._tie
-        )
-        self._stage, self._sketch = Stage(painter), Sketch()
+            self.desk, self.dialogs, self.document, self.menu, self.panel,
+            self.choose, self._tie, self._touch,
+        )  # fmt: skip
+        self._stage = Stage(painter)
         self._pointer = (-1, -1)
         self._dragging = self._panning = False
         self._held: set[int] = set()
@@ -144,17 +148,19 @@ class Editor:
         if (prompt is not None and event.type in ASKED) or self.menu.handle(event):
             pass
         elif event.type == pygame.KEYDOWN:
-            self._press_key(event)
+            if not self.panel.handle(event):
+                self._press_key(event)
         elif event.type == pygame.KEYUP:
             self._held.discard(event.key)
         elif event.type == pygame.WINDOWFOCUSLOST:
             self._held.clear()
             self._let_go()
-        elif event.type == pygame.MOUSEWHEEL and self.panel.area.collidepoint(self._pointer):
-            self.panel.scroll(wheel_notches(event))
+        elif event.type == pygame.MOUSEWHEEL and self.panel.plate.collidepoint(self._pointer):
+            self.panel.handle(event)
         elif event.type == pygame.MOUSEWHEEL:
-            self._zoom(wheel_notches(event))
+            self.zoom(wheel_notches(event))
         elif event.type == pygame.MOUSEMOTION:
+            self.panel.handle(event)
             self._move(event)
         elif event.type == pygame.MOUSEBUTTONDOWN:
             self._press(event)
@@ -190,9 +196,9 @@ class Editor:
             self.help.close()
             return
         self._pointer = event.pos
-        if self.panel.area.collidepoint(event.pos):
+        if self.panel.plate.collidepoint(event.pos):
             self.desk.say("")
-            self.panel.click(event.pos)
+            self.panel.handle(event)
         elif event.button == pygame.BUTTON_LEFT:
             self._press_left(event.pos)
         elif event.button == pygame.BUTTON_MIDDLE:
@@ -210,7 +216,7 @@ class Editor:
                 self._panning = True
                 return
             self.desk.say("")
-            self._dragging = True
+            self._dragging, self.panel.focused = True, False
             self.tool.press(self._world(pixel), shift=self._shift)
 
     def _move(self, event: pygame.Event) -> None:
@@ -248,6 +254,7 @@ class Editor:
     def choose(self, name: str) -> None:
         """Take up a tool."""
         self.tool.cancel()
+        self.panel.focused = False
         made = next(make for tool, _, make, _ in TOOLS if tool == name)
         self.tool_name, self.tool = name, made(self.desk)
         if self.layout.plot.collidepoint(self._pointer):
@@ -256,7 +263,7 @@ class Editor:
     def _tie(self, kind: type[Joint], items: tuple[Item, ...]) -> None:
         """Let the person choose what items are tied to by a joint of a kind."""
         self.tool.cancel()
-        self.tool_name = "tie"
+        self.tool_name, self.panel.focused = "tie", False
         self.tool = Tie(self.desk, kind, items, lambda: self.choose("select"))
 
     def select_all(self) -> None:
@@ -264,22 +271,23 @@ class Editor:
         self.choose("select")
         self.desk.select(self.desk.draft.items())
 
-    def select_next(self) -> None:
-        """Select the item after the selected one, after the last the first."""
-        items = self.desk.draft.items()
-        place = items.index(self.desk.only) + 1 if self.desk.only in items else 0
+    def select_next(self, *, too: bool = False) -> None:
+        """Select the item after that selected last, after the last the first; too: one more."""
+        items, chosen = self.desk.draft.items(), self.desk.selection
+        place = items.index(chosen[-1]) + 1 if chosen and chosen[-1] in items else 0
         self.choose("select")
-        self.desk.select(items[place % len(items) :][:1] if items else ())
+        self.desk.select([*chosen * too, *items[place % max(1, len(items)) :][:1]])
 
-    def list_properties(self) -> None:
-        """Open a menu of all that the panel changes, for who has no mouse."""
-        corner = self.panel.area.topleft
-        entries = [
-            Entry(row.title.capitalize(), partial(row.act, corner), value=row.value)
-            for row in self.properties.rows()
-            if row.act is not None
-        ]
-        self.menu.open("properties", lambda: entries, corner)
+    def reach_panel(self) -> None:
+        """Give the keys to the panel, for who has no mouse."""
+        self.panel.focused = True
+
+    def _touch(self, corner: int) -> None:
+        """Choose a corner of the selection, and ask where it lies."""
+        if not isinstance(self.tool, Handling):
+            self.choose("select")
+        self.desk.corner = corner
+        self.ask_pose()
 
     def _complete(self) -> None:
         """Finish the outline that is being drawn."""
@@ -287,21 +295,30 @@ class Editor:
 
     def ask_pose(self) -> None:
         """Ask where to put the selection, or a new item."""
-        if not (self.desk.selection or self.tool.puts):
+        if self.tool_name == "select" and not self.desk.selection:
             self.desk.say("select something first, or choose a tool that places items", warns=True)
             return
         enter = Answer("Enter", "apply", self._put)
         self.dialogs.prompt = Prompt(
-            "x y [degrees] =", enter, field=TextField(opened_by_key=True), doc="such as 1.5 2 90"
+            "x y [degrees] =",
+            enter,
+            field=TextField(opened_by_key=True),
+            doc="such as 1.5 2 90, or the name of a thing that is there",
         )
 
     def _put(self, text: str) -> None:
-        """Put the selection, or a new item, at typed numbers."""
+        """Put the selection, or a new item, at typed numbers or where a thing of a name is."""
+        draft = self.desk.draft
+        named = (draft.place(item) for item in draft.items() if draft.name(item) == text.strip())
+        place = next(named, None)
+        if place is not None:
+            self.tool.put(*place, None)
+            return
         try:
             x, y, *rest = map(float, text.replace(",", " ").split())
             (angle,) = rest or (None,)
         except ValueError:
-            raise InputError(f"{text!r}: expected x y in metres, or x y degrees") from None
+            raise InputError(f"{text!r}: expected x y in metres, x y degrees, or a name") from None
         self.tool.put(x, y, None if angle is None else radians(angle))
 
     def undo(self) -> None:
@@ -319,7 +336,8 @@ class Editor:
 
     # -- the view -------------------------------------------------------------------------------
 
-    def _zoom(self, notches: float) -> None:
+    def zoom(self, notches: float) -> None:
+        """Zoom about the pointer, or else about the middle, by notches of the wheel."""
         pixel = self._pointer if self._pointer[0] >= 0 else self.layout.plot.center
         self.viewpoint.zoom(notches, pixel)
 
@@ -328,7 +346,9 @@ class Editor:
         room, columns = layout.plot.copy(), 1.0 if layout.plot.height >= TALL * layout.ui else 1.6
         left = round(min(columns * WIDTH * layout.ui, MAX_SHARE * size[0]))
         room.left, room.width = left, max(1, room.width - left)
-        room.width = max(1, room.width - Panel.width(room, size, layout.ui))
+        free = room.width - ARENA * size[0] * size[1] / room.height
+        room.width -= round(max(1, min(PANEL * layout.ui, MAX_PANEL * size[0], free)))
+        room.width = max(1, room.width)
         return replace(layout, plot=room)
 
     def _arrange(self, size: tuple[int, int]) -> None:
@@ -364,7 +384,7 @@ class Editor:
         side = pygame.Rect(0, bar.bottom, plot.left, plot.height)
         self._draw_tools(surface, side)
         right = pygame.Rect(plot.right, plot.top, surface.get_width() - plot.right, plot.height)
-        self.panel.draw(surface, right, self.properties.rows(), self._pointer)
+        self.panel.draw(surface, right, self.painter)
         self._header.draw(surface, bar, self.title, self._note(), self._pointer)
         if self.dialogs.prompt is None:
             self._draw_foot(surface)
@@ -398,7 +418,7 @@ class Editor:
         draw_culprits(draft, self.judge.verdict.culprits, scene)
         self.tool.draw(scene)
         plot, camera = self.layout.plot, self.desk.camera
-        frame = self._sketch.frame(draft, bare=self._plain)
+        frame = (draft.bare if self._plain else draft).frame()
         if self._names:
             draw_remarks(draft, self.properties.idle(draft), scene)
         layers, hurried = LAYERS.switched(names=self._names), self.viewpoint.hurried
@@ -410,8 +430,7 @@ class Editor:
                 raise
             self._plain = True
             self.desk.say(f"Other add-ons are not drawn: {error}", warns=True)
-            frame = self._sketch.frame(draft, bare=True)
-            draw(surface, frame, camera, layers, plot)
+            draw(surface, draft.bare.frame(), camera, layers, plot)
         remark = self.tool.remark
         if remark:
             x, y = self._pointer
@@ -421,7 +440,7 @@ class Editor:
     def _draw_foot(self, surface: pygame.Surface) -> None:
         """Draw what to do, or over the foot of the drawing a message of any length."""
         desk, verdict, layout = self.desk, self.judge.verdict, self.layout
-        text = self.tool.hint
+        text = PANEL_HINT if self.panel.focused else self.tool.hint
         banner = Banner(desk.notice, error=desk.warns) if desk.notice else None
         if banner is None and verdict.faults and desk.draft.robots:
             banner = Banner(verdict.text, error=True)

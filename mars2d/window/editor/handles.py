@@ -175,7 +175,7 @@ def cornering(desk: Desk, item: Item, number: int, *, new: bool = False) -> Drag
         before.insert(k, before[number])
 
     def to(point: Point, _: bool) -> Draft:
-        return draft.with_value(item, (*before[:k], desk.snapped(point), *before[k + 1 :]))
+        return draft.with_values({item: (*before[:k], desk.snapped(point), *before[k + 1 :])})
 
     def remark() -> str:
         corners = desk.draft.corners(item) or ()

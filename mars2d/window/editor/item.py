@@ -9,12 +9,6 @@ from mars2d.core.plane import Point
 
 Kind = Literal["robot", "prop", "outline", "wall", "waypoint", "beacon", "workspace"]
 
-FIELDS: dict[Kind, str] = {
-    "robot": "robots", "prop": "props", "outline": "outlines", "wall": "walls",
-    "waypoint": "routes", "beacon": "beacons",
-}  # fmt: skip
-"""The field of `Draft` that holds the items of a kind."""
-
 
 class Item(NamedTuple):
     """An item of a draft.

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
 
 from mars2d.bodies.props.solid import Solid
-from mars2d.core.plane import Outline, Point, rectangle
+from mars2d.core.plane import Outline, Point, bounds_of, rectangle
 from mars2d.core.scene import INK, Scene, faded
 from mars2d.geometry.shapes import Polygon
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.handles import MARK, PAPER, Handle, handle_at
 from mars2d.window.editor.item import Item, tidy
-from mars2d.window.editor.picking import edge_at, foot_on
+from mars2d.window.editor.picking import edge_at
 from mars2d.window.editor.readout import sides, stretch
 from mars2d.window.editor.select import Handling
 from mars2d.window.editor.tool import Drag, Tool
@@ -49,11 +48,10 @@ class Chain(Tool):
 
     def confirm(self) -> bool:
         """Keep the outline if it has enough corners."""
-        corners, self.corners = self.corners, []
-        if len(corners) < self.least:
-            return bool(corners)
-        self.desk.put_new(self.made(tuple(corners)))
-        return True
+        if len(self.corners) < self.least:
+            return self._drop()
+        self.desk.put_new(self.made(tuple(self.corners)))
+        return self._drop()
 
     def made(self, corners: Outline) -> Draft:
         """Return the draft with the outline."""
@@ -65,6 +63,9 @@ class Chain(Tool):
 
     def cancel(self) -> bool:
         """Remove all corners."""
+        return self._drop()
+
+    def _drop(self) -> bool:
         corners, self.corners = self.corners, []
         return bool(corners)
 
@@ -146,7 +147,9 @@ class DrawSolid(DrawPolygon):
         return self.desk.draft.added("prop", Solid(shape, pose=(tidy(x), tidy(y), 0.0)))
 
 
-def framing(desk: Desk, point: Point, made: Callable[[Outline], Draft], least: float = 0) -> Drag:
+def framing(
+    desk: Desk, point: Point, made: Callable[[Draft, Outline], Draft], least: float
+) -> Drag:
     """Draw a rectangle from corner to corner; least: its shortest side, points."""
     draft, (ax, ay) = desk.draft, desk.snapped(point)
 
@@ -154,11 +157,11 @@ def framing(desk: Desk, point: Point, made: Callable[[Outline], Draft], least: f
         bx, by = desk.snapped(end)
         if min(abs(ax - bx), abs(ay - by)) <= desk.metres(least):
             return draft
-        return made(rectangle(min(ax, bx), max(ax, bx), min(ay, by), max(ay, by)))
+        return made(draft, rectangle(*bounds_of([(ax, ay), (bx, by)])))
 
     def remark() -> str:
         new = desk.draft.new_since(draft)
-        ring = desk.draft.corners(new[0]) if new else desk.draft.workspace
+        ring = desk.draft.corners(new[0]) if new else desk.draft.base.workspace
         (left, low), _, (right, high), *_ = ring or ((0.0, 0.0),) * 3
         return sides(right - left, high - low) if desk.draft is not draft else ""
 
@@ -169,11 +172,25 @@ class DrawRectangle(Tool):
     """Draws rectangular obstacles."""
 
     hint = "Drag from corner to corner"
+    least = 0.0
+    """The shortest side, points."""
+    _first: Point | None = None
+
+    def made(self, draft: Draft, corners: Outline) -> Draft:
+        """Return the draft with the rectangle."""
+        return draft.added("outline", corners)
 
     def press(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
         """Begin with a corner."""
-        draft = self.desk.draft
-        self.begin(framing(self.desk, point, partial(draft.added, "outline")), point)
+        self.begin(framing(self.desk, point, self.made, self.least), point)
+
+    def put(self, x: float, y: float, heading: float | None) -> None:  # noqa: ARG002
+        """Put a corner at a typed point; the second one makes the rectangle."""
+        start, self._first = self._first, (x, y)
+        if start is not None:
+            self._first = None
+            ring = rectangle(*bounds_of([start, (x, y)]))
+            self.desk.put_new(self.made(self.desk.draft, ring))
 
     def draw(self, scene: Scene) -> None:
         """Draw the place of the first corner."""
@@ -182,10 +199,11 @@ class DrawRectangle(Tool):
             scene.circle(place, 0.0, fill=PAPER, stroke=MARK, width=1.5, pixels=3.5)
 
 
-class Workspace(Handling):
+class Workspace(DrawRectangle, Handling):
     """Draws the workspace; moves, adds and removes its corners."""
 
     hint = "Drag corners; click an edge for a new one, Del removes one"
+    least = 2.0
 
     def __init__(self, desk: Desk) -> None:
         """Select the workspace."""
@@ -194,25 +212,32 @@ class Workspace(Handling):
 
     def _hold(self) -> None:
         corner = self.desk.corner
-        self.desk.select([Item("workspace")] if self.desk.draft.workspace is not None else [])
+        self.desk.select([Item("workspace")] if self.desk.draft.base.workspace is not None else [])
         self.desk.corner = corner if self.desk.selection else None
 
-    def press(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
+    def made(self, draft: Draft, corners: Outline) -> Draft:
+        """Return the draft with the workspace."""
+        return draft.with_list("workspace", [corners])
+
+    def put(self, x: float, y: float, heading: float | None) -> None:
+        """Put the corner touched last, or without a workspace a corner of a new one."""
+        base = DrawRectangle if self.desk.draft.base.workspace is None else Handling
+        base.put(self, x, y, heading)
+
+    def press(self, point: Point, *, shift: bool) -> None:
         """Begin to drag a corner, or add one on an edge."""
-        desk, corners = self.desk, self.desk.draft.workspace
+        desk, corners = self.desk, self.desk.draft.base.workspace
         if corners is None:
-            frame = partial(desk.draft.with_value, Item("workspace"))
-            self.begin(framing(desk, point, frame, least=2), point)
+            super().press(point, shift=shift)
             return
         self._hold()
         handle = handle_at(desk, point)
         if handle is None:
-            k = edge_at(point, corners, desk.metres(NEAR))
-            if k is None:
+            edge = edge_at(point, corners, desk.metres(NEAR))
+            if edge is None:
                 desk.corner = None
                 return
-            foot = foot_on(point, corners[k], corners[(k + 1) % len(corners)])
-            handle = Handle("dot", k, foot)
+            handle = Handle("dot", *edge)
         self.take(handle, point)
 
     def release(self, point: Point, *, shift: bool) -> None:
@@ -223,4 +248,4 @@ class Workspace(Handling):
     def draw(self, scene: Scene) -> None:
         """Draw the handles."""
         self._hold()
-        super().draw(scene)
+        Handling.draw(self, scene)

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from itertools import pairwise
-from math import hypot
 
 import numpy as np
+import shapely
 
-from mars2d.core.plane import Outline, Point, edges_of, inside_polygon
+from mars2d.core.plane import Outline, Point, edges_of
 from mars2d.window.editor.desk import Desk
-from mars2d.window.editor.item import Item
+from mars2d.window.editor.item import Item, Kind
 from mars2d.window.screen.picking import body_at
 
 NEAR = 6.0
@@ -35,13 +34,18 @@ def item_at(desk: Desk, point: Point, but: Collection[Item] = ()) -> Item | None
     body = body_at(draft.frame(), point, desk.metres(NEAR / 2), without)
     if body is not None:
         return Item("robot", body) if body < robots else Item("prop", body - robots)
-    slack = desk.metres(NEAR)
-    for i, wall in reversed(list(enumerate(draft.walls))):
-        if _on_line(point, wall, slack):
-            return Item("wall", i)
-    for i, outline in reversed(list(enumerate(draft.outlines))):
-        if edge_at(point, outline, slack) is not None or inside(point, outline):
-            return Item("outline", i)
+    kinds: tuple[Kind, ...] = ("wall", "outline")
+    for kind in kinds:
+        shapes = [
+            shapely.LineString(corners)
+            if kind == "wall" or len(corners) == 2
+            else shapely.Polygon(corners)
+            for corners in draft.listed(kind)
+        ]
+        gaps = shapely.distance(shapes, shapely.Point(point))
+        hit = np.flatnonzero(gaps <= desk.metres(NEAR)).tolist()
+        if hit:
+            return Item(kind, hit[-1])
     return None
 
 
@@ -56,30 +60,13 @@ def items_within(desk: Desk, a: Point, b: Point) -> list[Item]:
     return found
 
 
-def edge_at(point: Point, outline: Outline, slack: float) -> int | None:
-    """Return the index of a closed outline's nearest edge, None if it is farther than slack [m]."""
-    gaps = [
-        hypot(point[0] - x, point[1] - y)
-        for x, y in (foot_on(point, *edge) for edge in edges_of(outline))
-    ]
-    nearest = int(np.argmin(gaps))
-    return nearest if gaps[nearest] <= slack else None
+def edge_at(point: Point, outline: Outline, slack: float) -> tuple[int, Point] | None:
+    """Return a closed outline's nearest edge, by its index, and the nearest point on it.
 
-
-def foot_on(point: Point, a: Point, b: Point) -> Point:
-    """Return the point on the edge from a to b that is nearest to a point."""
-    ex, ey = b[0] - a[0], b[1] - a[1]
-    along = ((point[0] - a[0]) * ex + (point[1] - a[1]) * ey) / max(ex * ex + ey * ey, 1e-18)
-    along = min(max(along, 0.0), 1.0)
-    return a[0] + along * ex, a[1] + along * ey
-
-
-def _on_line(point: Point, wall: Outline, slack: float) -> bool:
-    feet = (foot_on(point, a, b) for a, b in pairwise(wall))
-    return any(hypot(point[0] - x, point[1] - y) <= slack for x, y in feet)
-
-
-def inside(point: Point, outline: Outline) -> bool:
-    """Return whether a point lies in a closed outline."""
-    x, y = np.array([point], dtype=float).T
-    return len(outline) > 2 and bool(inside_polygon(x, y, np.array(outline))[0])
+    None if that is farther than slack [m].
+    """
+    edges, here = [shapely.LineString(edge) for edge in edges_of(outline)], shapely.Point(point)
+    gaps = shapely.distance(edges, here)
+    k = int(np.argmin(gaps))
+    foot = edges[k].interpolate(edges[k].project(here))
+    return (k, (foot.x, foot.y)) if gaps[k] <= slack else None

@@ -164,7 +164,7 @@ class PlaceWaypoint(Place):
 
     def added(self, draft: Draft, start: Point, end: Point, shift: bool) -> Draft:  # noqa: ARG002
         """Place a waypoint at the pointer."""
-        return draft.added("waypoint", self.desk.snapped(end), self._robot)
+        return draft.added("waypoint", self.desk.snapped(end), robot=self._robot)
 
     def draw(self, scene: Scene) -> None:
         """Draw a ring round the robot whose route it is."""

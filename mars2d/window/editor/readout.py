@@ -29,8 +29,6 @@ def described(desk: Desk) -> list[str]:
         lines.append(f"{_place(pose[:2])}   θ {in_both_units(pose[2])}")
     elif corners is None:
         lines.append(_place(draft.place(item)))
-    elif desk.corner is not None:
-        lines.append(f"corner {desk.corner}   {_place(corners[desk.corner])}")
     else:
         lines.append(f"{counted(len(corners), 'corner')}, {_length(item, corners)}")
     size = size_of(draft, item)

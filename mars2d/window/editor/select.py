@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mars2d.core.errors import InputError
-from mars2d.core.plane import Point, rectangle
+from mars2d.core.plane import Point, bounds_of, rectangle
 from mars2d.core.scene import Scene, faded
 from mars2d.window.editor.handles import (
     MARK,
@@ -23,8 +23,6 @@ from mars2d.window.editor.tool import Tool
 
 class Handling(Tool):
     """The base of tools that drag handles."""
-
-    puts = False
 
     def take(self, handle: Handle, point: Point) -> None:
         """Begin to drag a handle."""
@@ -52,7 +50,7 @@ class Handling(Tool):
             raise InputError("only one robot or prop alone has a heading: expected x y")
         if corners is not None and desk.corner is not None:
             k = desk.corner
-            desk.put(draft.with_value(held, (*corners[:k], (x, y), *corners[k + 1 :])))
+            desk.put(draft.with_values({held: (*corners[:k], (x, y), *corners[k + 1 :])}))
             return
         angle = 0.0 if heading is None or pose is None else heading - pose[2]
         by = x - place[0], y - place[1]
@@ -120,6 +118,5 @@ class Select(Handling):
         """Draw the handles and the rectangle."""
         super().draw(scene)
         if self._band is not None:
-            (ax, ay), (bx, by) = self._band
-            area = rectangle(min(ax, bx), max(ax, bx), min(ay, by), max(ay, by))
+            area = rectangle(*bounds_of(self._band))
             scene.polygon(area, fill=faded(MARK, 0.08), stroke=MARK, width=1.0)

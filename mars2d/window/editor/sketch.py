@@ -1,58 +1,17 @@
-"""The drawing of a draft: its frame, its selected items, and its faulty ones."""
+"""What is drawn over a draft: its selected items, its faulty ones, remarks."""
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Iterable, Mapping
 
 from mars2d.core.scene import Scene, faded
 from mars2d.output.raster.theme import LIGHT
-from mars2d.record.frame import Frame
-from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.handles import MARK, PAPER
 from mars2d.window.editor.item import Item
 
 IDLE, IDLE_SIZE = LIGHT.waiting.ink, 12.0
 RED = LIGHT.error.ink
-
-
-class Sketch:
-    """Makes frames of drafts that follow each other.
-
-    The frame's scenario is the same object as long as only robots, props, waypoints and beacons
-    change, so that the unchanged ground need not be drawn again while they are dragged.
-    """
-
-    def __init__(self) -> None:
-        """Start without a draft."""
-        self._draft: Draft | None = None
-        self._bare = False
-        self._scenario: Scenario | None = None
-
-    def frame(self, draft: Draft, *, bare: bool) -> Frame:
-        """Return the instant before the start; bare: with only the add-ons that can be edited."""
-        if self._scenario is None or draft is not self._draft or bare is not self._bare:
-            fresh = copy.copy(draft.bare_sketch if bare else draft.sketch)
-            if self._scenario is None or not self._same_ground(draft, bare=bare):
-                self._scenario = fresh
-            else:  # a copy that nobody else holds
-                self._scenario.__dict__.clear()
-                self._scenario.__dict__.update(fresh.__dict__)
-            self._draft, self._bare = draft, bare
-        return draft.frame(self._scenario)
-
-    def _same_ground(self, draft: Draft, *, bare: bool) -> bool:
-        """Return whether a draft has the same obstacles and workspace as the last one."""
-        last = self._draft
-        return (
-            last is not None
-            and bare is self._bare
-            and last.base is draft.base
-            and last.outlines is draft.outlines
-            and last.walls is draft.walls
-            and last.workspace is draft.workspace
-        )
 
 
 def draw_selected(draft: Draft, items: Iterable[Item], scene: Scene) -> None:

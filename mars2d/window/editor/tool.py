@@ -31,12 +31,11 @@ class Drag:
 class Tool:
     """The base of all tools: methods for the mouse, at points of the world [m], and a few keys.
 
-    hint: a line that says what to do. puts: whether the tool makes new items. drag: the present
-    one. moved: whether the pointer has moved since it began.
+    hint: a line that says what to do. drag: the present one. moved: whether the pointer has moved
+    since it began.
     """
 
     hint: str = ""
-    puts: bool = True
 
     def __init__(self, desk: Desk) -> None:
         """Start with nothing pressed."""

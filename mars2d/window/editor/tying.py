@@ -23,8 +23,6 @@ class Tie(Tool):
     Joints hold bodies at their centres; a hinge is a pin where the click is.
     """
 
-    puts = False
-
     def __init__(
         self, desk: Desk, kind: type[Joint], items: tuple[Item, ...], done: Callable[[], None]
     ) -> None:
@@ -49,6 +47,10 @@ class Tie(Tool):
             draft = draft.with_joint(self._kind(a=draft.name(item), **ends))
         desk.put(draft)
         self._done()
+
+    def put(self, x: float, y: float, heading: float | None) -> None:  # noqa: ARG002
+        """Tie the bodies to the item at a typed point."""
+        self.press((x, y), shift=False)
 
     def draw(self, scene: Scene) -> None:
         """Draw a line from each body to the pointer."""

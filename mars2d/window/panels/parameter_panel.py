@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from math import floor, log10
 from typing import Literal, NamedTuple
 
@@ -15,10 +16,10 @@ from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.parameters import PREFIX, Parameter
+from mars2d.window.panels.rows import Row, RowsPanel
 from mars2d.window.screen.player import Player
 from mars2d.window.screen.selection import Selection
 from mars2d.window.widgets.buttons import draw_icon
-from mars2d.window.widgets.dock import Panel
 from mars2d.window.widgets.slider import ValueSlider
 from mars2d.window.widgets.text_field import TextField
 from mars2d.window.widgets.words import Word, write_line
@@ -68,7 +69,7 @@ class Line(NamedTuple):
         return HEADING if self.parameter is None else ROW
 
 
-class ParameterPanel(Panel):
+class ParameterPanel(RowsPanel):
     """Shows the parameters of an experiment, and of the body that is selected, as sliders.
 
     A slider is dragged, or moved by arrow keys once it was clicked; a number that is typed then is
@@ -78,6 +79,7 @@ class ParameterPanel(Panel):
     """
 
     name, title = "parameters", "Parameters"
+    least = LEAST_ROWS * ROW + HEADING + LINES * WORDS + 4
 
     def __init__(
         self,
@@ -88,7 +90,7 @@ class ParameterPanel(Panel):
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         """Start with nothing drawn and nothing said."""
-        self.painter = painter
+        super().__init__(painter)
         self._player, self._selection = player, selection
         self._set_to, self._clock = set_to, clock
         self._known: tuple[Experiment | None, int | None] | None = None
@@ -104,9 +106,6 @@ class ParameterPanel(Panel):
         self._waits = False  # whether it is to be set
         self._anew = ""  # why it needs a new start
         self._next = self._clicked = 0.0  # when it may be set; when the last click was
-        self._scroll = 0.0  # points
-        self._room = 0.0
-        self._cut = False  # whether there is no room for all lines
 
     # -- what there is ------------------------------------------------------------------------
 
@@ -129,54 +128,42 @@ class ParameterPanel(Panel):
                 self._lines, self.said = [Line("No parameters")], (str(error), "error")
             if selected:  # let its sliders be seen
                 heading = max(k for k, line in enumerate(self._lines) if line.parameter is None)
-                self._scroll = sum(line.height for line in self._lines[:heading])
+                self.scroll = sum(line.height for line in self._lines[:heading])
             if self.focus not in {line.parameter.name for line in self._lines if line.parameter}:
                 self.leave()
         return self._lines
 
-    def heights(self, frame: Frame, width: float) -> tuple[float, float]:  # noqa: ARG002
-        """Return the least and the wanted height of the content at a width, points."""
-        below = LINES * WORDS + 4
-        wanted = sum(line.height for line in self._look())
-        return min(wanted, LEAST_ROWS * ROW + HEADING) + below, wanted + below
-
     # -- drawing ------------------------------------------------------------------------------
 
-    def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:  # noqa: ARG002
-        """Draw the content within a rectangle: as many lines as there is room for."""
-        lines, ui, theme = self._look(), self.painter.ui, self.painter.theme
-        room = pygame.Rect(
-            rect.topleft, (rect.width, rect.height - self._draw_words(surface, rect))
-        )
-        whole = sum(line.height for line in lines)
-        self._room = room.height / ui
-        self._cut = whole > self._room + 2
-        self._scroll = min(max(self._scroll, 0.0), max(0.0, whole - self._room))
+    def rows(self, frame: Frame, width: float) -> Sequence[Row]:  # noqa: ARG002
+        """Return the headings, and a row for each parameter."""
+        color = self.painter.theme.muted
+        return [
+            self.line(HEADING, [Word(text, color, bold=True)])
+            if parameter is None
+            else Row(ROW, partial(self._draw_row, text, parameter))
+            for text, parameter in self._look()
+        ]
+
+    def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:
+        """Draw the rows, and note where they are."""
         self.places, self.resets = {}, {}
-        clip = surface.get_clip()
-        surface.set_clip(room.clip(clip))
-        top = room.top - self._scroll * ui
-        bar = round(8 * ui) if self._cut else 0
-        for line in lines:
-            place = pygame.Rect(room.left, round(top), room.width - bar, round(line.height * ui))
-            top += line.height * ui
-            if place.bottom <= room.top or place.top >= room.bottom:
-                continue
-            if line.parameter is None:
-                write_line(surface, place, self.painter, [Word(line.text, theme.muted, bold=True)])
-            else:
-                self.places[line.parameter.name] = place.clip(room)
-                self._draw_row(surface, place, line.text, line.parameter)
-        if bar:
-            self._draw_scrollbar(surface, room, whole)
-        surface.set_clip(clip)
+        super().draw(surface, rect, frame)
+
+    def foot(self, width: float) -> Sequence[Row]:
+        """Return the effect of the last setting, or else words about the slider with the focus."""
+        text, kind = self._words()
+        color = self.painter.theme.error.ink if kind == "error" else self.painter.theme.muted
+        lines = [*self.wrapped(WORDS, Word(text, color), width, MAX_LINES)]
+        return [self.line(4), *lines, *[self.line(WORDS)] * (LINES - len(lines))]
 
     def _draw_row(
-        self, surface: pygame.Surface, place: pygame.Rect, text: str, parameter: Parameter
+        self, text: str, parameter: Parameter, surface: pygame.Surface, place: pygame.Rect
     ) -> None:
         """Draw a name, its value, the button that puts it back, and below them the slider."""
         ui, theme, pad = self.painter.ui, self.painter.theme, round(PAD * self.painter.ui)
         name, held = parameter.name, parameter.name == self._held
+        self.places[name] = place.clip(surface.get_clip())
         if name == self.focus:
             self.painter.panel(surface, place, theme.key, 5 * ui, theme.selected)
         value = self._value if held else parameter.value
@@ -203,30 +190,6 @@ class ParameterPanel(Panel):
         ends = parameter.low, parameter.high
         slider.draw(surface, line, self.painter, value, parameter.default, ends, held=held)
 
-    def _draw_scrollbar(self, surface: pygame.Surface, room: pygame.Rect, whole: float) -> None:
-        ui, theme = self.painter.ui, self.painter.theme
-        height = max(round(20 * ui), round(room.height * self._room / whole))
-        thumb = pygame.Rect(0, 0, round(4 * ui), height)
-        share = self._scroll / (whole - self._room)
-        thumb.topright = room.right, room.top + round(share * (room.height - height))
-        self.painter.panel(surface, thumb, theme.track, thumb.width / 2)
-
-    def _draw_words(self, surface: pygame.Surface, rect: pygame.Rect) -> int:
-        """Write the effect of the last setting, or else about the slider that has the focus.
-
-        Returns the height of the words, pixels.
-        """
-        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
-        text, kind = self._words()
-        color = theme.error.ink if kind == "error" else theme.muted
-        lines = fonts.wrap(text, 12.5 * ui, rect.width, MAX_LINES)
-        below = round((max(len(lines), LINES) * WORDS + 4) * ui)
-        top = rect.bottom - below + round(4 * ui)
-        for k, line in enumerate(lines):
-            place = rect.left, top + k * WORDS * ui
-            self.painter.write(surface, line, 12.5 * ui, color, topleft=place)
-        return below
-
     def _words(self) -> tuple[str, Say]:
         if self._held is not None and self._anew:
             return f"let go to start again: {self._anew}", "info"
@@ -239,18 +202,17 @@ class ParameterPanel(Panel):
             return f"{focused.name}: {between}; {focused.default:.6g} in the file", "info"
         if self._selection.body is None:
             return "select a robot or prop for its mass, friction and drive", "info"
-        more = "; turn the wheel for more" if self._cut else ""
+        more = "; turn the wheel for more" if self.cut else ""
         return f"drag a slider, or click it and type a number{more}", "info"
 
     # -- the mouse ----------------------------------------------------------------------------
 
     def handle(self, event: pygame.Event) -> bool:
         """Handle an event of the mouse within the panel; return whether a drag has begun."""
-        if event.type == pygame.MOUSEWHEEL:
-            self._scroll -= event.y * ROW
-        elif event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
+        super().handle(event)
+        if event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
             return self._press(event.pos)
-        elif event.type == pygame.MOUSEMOTION and self._held is not None:
+        if event.type == pygame.MOUSEMOTION and self._held is not None:
             self._drag(event.pos[0])
         elif event.type == pygame.MOUSEBUTTONUP and self._held is not None:
             self._drop()
@@ -363,7 +325,7 @@ class ParameterPanel(Panel):
         top = 0.0
         for line in self._lines:
             if line.parameter is not None and line.parameter.name == self.focus:
-                self._scroll = min(max(self._scroll, top + ROW - self._room), top)
+                self.scroll = min(max(self.scroll, top + ROW - self.room), top)
             top += line.height
 
     def _take(self, parameter: Parameter) -> None:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import NamedTuple
 
 import pygame
@@ -14,7 +15,7 @@ from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.theme import Theme
 from mars2d.record.frame import Frame
 from mars2d.scenario.prediction import SIGNS, Prediction, cells, number, summary
-from mars2d.window.widgets.dock import Panel
+from mars2d.window.panels.rows import Row, RowsPanel
 from mars2d.window.widgets.words import Word, write_line
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
@@ -26,9 +27,8 @@ SHARE = 0.04
 DEAR = 0.1
 """Where `checks` takes longer, the numbers are read only when time stands still, seconds."""
 
-TITLES, ROW, LINE, LEAST = 22.0, 40.0, 17.0, 110.0
-"""The heights of the columns' titles, of a prediction, of a line of words, and the least height of
-the panel, points."""
+TITLES, ROW, LINE = 22.0, 40.0, 17.0
+"""The heights of the columns' titles, of a prediction and of a line of words, points."""
 NUMBER = 13.0
 """The height of numbers, points."""
 UNIT, MARK = 58.0, 8.0
@@ -49,7 +49,7 @@ class Reading(NamedTuple):
     error: LawError | None
 
 
-class Predictions(Panel):
+class Predictions(RowsPanel):
     """Shows predictions as a table: predicted, measured, tolerance, and whether they agree.
 
     `checks` is written for a run that has ended. While one goes on, it is asked a few times a
@@ -57,7 +57,7 @@ class Predictions(Panel):
     yet". Its errors are shown here, and never end the run.
     """
 
-    name, title = "predictions", "Predictions"
+    name, title, least = "predictions", "Predictions", 110.0
 
     def __init__(
         self,
@@ -66,11 +66,11 @@ class Predictions(Panel):
         clock: Callable[[], float] = time.perf_counter,
     ) -> None:
         """Start with nothing read."""
-        self.painter, self.reading = painter, Reading(0.0, False, (), None)
+        super().__init__(painter)
+        self.reading = Reading(0.0, False, (), None)
         self._timeline, self._clock = timeline, clock
         self._read: tuple[World, int] | None = None
         self._next, self._cost = -math.inf, 0.0
-        self._first = 0  # the prediction at the top, if there is no room for all
 
     @property
     def offered(self) -> bool:
@@ -98,52 +98,42 @@ class Predictions(Panel):
 
     # -- the panel --------------------------------------------------------------------------------
 
-    def heights(self, frame: Frame, width: float) -> tuple[float, float]:  # noqa: ARG002
-        """Return the least and the wanted height at a width, points."""
-        lines = len(self._words(width * self.painter.ui))
-        rows = max(len(self.reading.predictions), 1)
-        return LEAST, max(LEAST, TITLES + rows * ROW + lines * LINE)
+    def rows(self, frame: Frame, width: float) -> Sequence[Row]:  # noqa: ARG002
+        """Return the titles of the columns, and a row for each prediction."""
+        found = self.reading.predictions
+        each = [Row(ROW, partial(self._draw_row, prediction)) for prediction in found]
+        return [Row(TITLES, self._draw_titles), *each] if found else []
 
-    def handle(self, event: pygame.Event) -> bool:
-        """Scroll by the wheel where there is no room for all predictions."""
-        if event.type == pygame.MOUSEWHEEL:
-            self._first -= event.y
-        return False
+    def heights(self, frame: Frame, width: float) -> tuple[float, float]:
+        """Return the least and the wanted height; nothing measured yet makes neither lower."""
+        return self.least, max(self.least, super().heights(frame, width)[1])
 
-    def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:  # noqa: ARG002
-        """Draw the table, and below it the values that could not be read."""
-        ui, theme, painter = self.painter.ui, self.painter.theme, self.painter
-        rows, words = self.reading.predictions, self._words(rect.width)
-        top, foot = rect.top, rect.bottom - round(len(words) * LINE * ui) if rows else rect.top
-        each = self._column(rect.width)
-        columns = [round(rect.right - UNIT * ui - k * each) for k in (2, 1, 0)]
-        titles = ("predicted", "measured", "tolerance") if rows else ()
-        for title, right in zip(titles, columns, strict=False):
-            painter.write(surface, title, 11.5 * ui, theme.muted, topright=(right, top))
-        top += round(TITLES * ui) if rows else 0
-        room = max(1, int((foot - top) / (ROW * ui)))
-        self._first = min(max(self._first, 0), max(0, len(rows) - room))
-        for prediction in rows[self._first : self._first + room]:
-            place = pygame.Rect(rect.left, top, rect.width, round(ROW * ui))
-            self._draw_row(surface, place, prediction, columns)
-            top = place.bottom
-        failed = self.reading.error is not None and self.reading.finished
+    def foot(self, width: float) -> Sequence[Row]:
+        """Return lines about the run, and about values that could not be read."""
+        theme, reading = self.painter.theme, self.reading
+        failed = reading.error is not None and reading.finished
         color = theme.error.ink if failed else theme.muted
-        for k, line in enumerate(words):
-            place = pygame.Rect(rect.left, foot + round(k * LINE * ui), rect.width, 0)
-            painter.write(surface, line, 12 * ui, color, topleft=place.topleft)
-        if len(rows) > room:
-            more = f"wheel: {len(rows) - room} more"
-            painter.write(surface, more, 12 * ui, theme.muted, bottomright=rect.bottomright)
+        return [*self.wrapped(LINE, Word(self._words(), color, 12), width, MAX_WORDS)]
+
+    def _columns(self, rect: pygame.Rect) -> list[int]:
+        """Return where the columns of numbers end, pixels from the left."""
+        each = self._column(rect.width)
+        return [round(rect.right - UNIT * self.painter.ui - k * each) for k in (2, 1, 0)]
+
+    def _draw_titles(self, surface: pygame.Surface, rect: pygame.Rect) -> None:
+        size, color = 11.5 * self.painter.ui, self.painter.theme.muted
+        for title, right in zip(
+            ("predicted", "measured", "tolerance"), self._columns(rect), strict=True
+        ):
+            self.painter.write(surface, title, size, color, topright=(right, rect.top))
 
     def _column(self, width: float) -> float:
         """Return the width of a column of numbers, pixels, given that of the panel's content."""
         return (width - UNIT * self.painter.ui) / 3.1
 
-    def _draw_row(
-        self, surface: pygame.Surface, rect: pygame.Rect, p: Prediction, columns: list[int]
-    ) -> None:
+    def _draw_row(self, p: Prediction, surface: pygame.Surface, rect: pygame.Rect) -> None:
         """Draw a prediction: its name and how it stands, and below that its numbers."""
+        columns = self._columns(rect)
         ui, theme, painter = self.painter.ui, self.painter.theme, self.painter
         said, color = self._verdict(p, theme)
         mark = pygame.Rect(rect.left, rect.top + round(3 * ui), round(MARK * ui), round(MARK * ui))
@@ -187,19 +177,17 @@ class Predictions(Panel):
             return "NOT OK", theme.error.ink
         return "not yet", theme.waiting.ink
 
-    def _words(self, width: float) -> list[str]:
-        """Return lines about the run, and about values that could not be read; width: pixels."""
-        timeline, reading, ui = self._timeline, self.reading, self.painter.ui
+    def _words(self) -> str:
+        """Return what is to say about the run, and about values that could not be read."""
+        timeline, reading = self._timeline, self.reading
         if timeline is not None and timeline.world.operator.log:
             first = timeline.world.recorder.options
             new = [f"{k} = {v:.6g}" for k, v in timeline.options.items() if first.get(k) != v]
             again = f"R: again with {', '.join(new)}, and predict." if new else "R: again."
-            text = f"A hand has changed this run; the predictions are for one without. {again}"
-        elif not reading.predictions and reading.error is None:
-            text = "Nothing is measured yet."
-        elif reading.error is not None:
-            text = f"{'Failed' if reading.finished else 'Not yet'}: {reading.error}"
-        else:
-            when = "at the end" if reading.finished else f"at {reading.time:.4g} s"
-            text = f"{summary(reading.predictions)} {when}"
-        return self.painter.fonts.wrap(text, 12 * ui, width, MAX_WORDS)
+            return f"A hand has changed this run; the predictions are for one without. {again}"
+        if not reading.predictions and reading.error is None:
+            return "Nothing is measured yet."
+        if reading.error is not None:
+            return f"{'Failed' if reading.finished else 'Not yet'}: {reading.error}"
+        when = "at the end" if reading.finished else f"at {reading.time:.4g} s"
+        return f"{summary(reading.predictions)} {when}"

@@ -36,6 +36,7 @@ def entries_of_body(frame: Frame, body: int, director: Director, actions: Action
         entries.append(Entry("Drive by hand", actions["drive"], "H"))
     return [
         *entries,
+        Entry("Push with a force ...", actions["push"], "W"),
         Entry("Put back to its start", lambda: director.put_back(body)),
         Entry("Twice as heavy", lambda: director.scale_mass(body, 2.0)),
         Entry("Half as heavy", lambda: director.scale_mass(body, 0.5)),
@@ -43,12 +44,24 @@ def entries_of_body(frame: Frame, body: int, director: Director, actions: Action
     ]
 
 
-def entries_of_place(point: Point, thing: str, director: Director, actions: Actions) -> list[Entry]:
-    """Return what can be done at a point [m] of the floor, or of the thing of this name."""
+def entries_of_place(
+    point: Point,
+    thing: str,
+    director: Director,
+    actions: Actions,
+    measure: Callable[[Point], object],
+) -> list[Entry]:
+    """Return what can be done at a point [m] of the floor, or of the thing of this name.
+
+    measure: begins to measure there.
+    """
     x, y = point
     entries = [
         Entry(thing or f"({x:.3g}, {y:.3g}) m"),
         Entry("Show all", actions["fit"], "F"),
+        Entry("Measure from here", lambda: measure(point), "F8"),
+        Entry("Stopwatch", actions["stopwatch"], "F9"),
+        Entry("Show what is printed", actions["printed"], "F6"),
         Entry("Copy the point", lambda: director.copy(f"({x:.6g}, {y:.6g})")),
     ]
     if director.timeline is not None:

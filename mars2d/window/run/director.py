@@ -10,7 +10,7 @@ import pygame
 
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.scenario.changes import alike, carried, check_same, with_poses, without_body
-from mars2d.scenario.experiment import Experiment
+from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.run.driver import ARROWS, LETTERS, Driver
@@ -65,6 +65,23 @@ class Director:
         if timeline.remark:
             self._notes.say(timeline.remark, "warning")
         return True
+
+    def step_within(self, way: int) -> None:
+        """Show the next moment within a control step, or for -1 the one before."""
+        timeline, player = self._live(), self._player
+        if timeline is None or player.step_within(way):
+            return
+        if way < 0:
+            player.back()
+        elif player.frame.time > timeline.frame.time:  # this is the last moment, the next row
+            player.step()
+        try:
+            moments = timeline.within(self._show_way_back)
+        except Mars2dError as error:
+            self._notes.say(str(error), "warning")
+            return
+        player.look_within(moments)
+        player.step_within(len(moments) - 1 if way < 0 else 1)
 
     def _live(self) -> Timeline | None:
         """Return the timeline; None, with a note, for a recording."""
@@ -336,6 +353,18 @@ class Director:
 
         if self.change(draw):
             self._notes.say("what was drawn holds from now on; Space goes on")
+
+    def next_start(self) -> None:
+        """Start again with the next seed."""
+        timeline = self._live()
+        if timeline is None:
+            return
+        now = timeline.experiment
+        seed = now.options.get("seed", now.seed or 0) + 1
+        options = {name: value for name, value in now.options.items() if name != "seed"}
+        law = None if now.alone else now.control
+        again = open_experiment(now.source.path or now.scenario, options, law, seed)
+        self._restart(again, f"start {seed}")
 
     def _restart(self, experiment: Experiment, said: str) -> None:
         assert self.timeline is not None

@@ -69,7 +69,7 @@ class Pull:
         self, do: Callable[[Act], bool], scenario: Scenario, body: int, grip: Point, target: Point
     ) -> None:
         self.body, self._do = body, do
-        self.grip, self.target = _within(scenario.bodies[body], grip), target
+        self.grip, self.target = within(scenario.bodies[body], grip), target
         self.force, self.speed = pull_of(scenario, body)
         self.newtons = 0.0
         self._world: World | None = None  # in which the body is pulled
@@ -95,7 +95,7 @@ class Pull:
 
     def draw(self, scene: Scene, frame: Frame, camera: Camera) -> None:
         """Draw the spring and its force."""
-        start = _world_point(frame.body_pose(self.body), self.grip)
+        start = world_point(frame.body_pose(self.body), self.grip)
         draw_ring(scene, frame, self.body, GOOD, 2.0)
         scene.line([start, self.target], stroke=HALO, width=5.0)
         scene.line([start, self.target], stroke=FORCE, width=2.5)
@@ -212,10 +212,6 @@ class Turn(Placement):
             scene.circle(end, 0.0, fill=color, stroke=HALO, width=1.5, pixels=3.5)
 
 
-Drag = Pull | Move | Turn
-"""A drag of the mouse that has begun on a body."""
-
-
 # -- poses and points -------------------------------------------------------------------------
 
 
@@ -238,12 +234,13 @@ def local_point(frame: Frame, body: int, point: Point) -> Point:
     return c * dx + s * dy, c * dy - s * dx
 
 
-def _world_point(pose: Triple, local: Point) -> Point:
+def world_point(pose: Triple, local: Point) -> Point:
+    """Return where a point of a body's own frame [m] is."""
     c, s = cos(pose[2]), sin(pose[2])
     return pose[0] + c * local[0] - s * local[1], pose[1] + s * local[0] + c * local[1]
 
 
-def _within(rigid: Rigid, point: Point) -> Point:
+def within(rigid: Rigid, point: Point) -> Point:
     """Return the point of a body's bounding circle nearest to a point, both in its frame."""
     (x, y), radius = rigid.shape.bound
     dx, dy = point[0] - x, point[1] - y

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import pygame
 
 from mars2d.bodies.drives.base import Drive
-from mars2d.world.teleop import Stick, command_of, ramped
+from mars2d.world.teleop import Stick, ramped
 
 
 class Keys(NamedTuple):
@@ -127,7 +127,7 @@ class Driver:
         Keys deflect the stick gradually, in a quarter of a second, so that a tap is a nudge.
         """
         self._stick = ramped(self._stick, self._wanted, dt)
-        return command_of(drive, self._stick.within() if drive.frame == "world" else self._stick)
+        return drive.steered(*(self._stick.within() if drive.frame == "world" else self._stick))
 
     @property
     def _wanted(self) -> Stick:

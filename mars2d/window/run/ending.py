@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from mars2d.core.errors import Mars2dError
 from mars2d.output.excerpt import Excerpt, excerpt_of
 from mars2d.output.raster.bars import Banner
@@ -10,7 +12,7 @@ from mars2d.world.timeline import Timeline
 
 HINT = "← looks back   R restarts   Ctrl Q leaves"
 AGAIN = "R plays again   Ctrl Q leaves"
-MEND = "correct the file and save it"
+MEND = "F7 opens the file: correct and save it"
 
 
 class Ending:
@@ -25,6 +27,12 @@ class Ending:
         self._player, self.of_game = player, False
         self._error: Mars2dError | None = None
         self._excerpt: Excerpt | None = None
+
+    @property
+    def line(self) -> tuple[Path, int] | None:
+        """The file and the line of the error that the banner shows, if they are known."""
+        excerpt = self._excerpt if self._player.failed else None
+        return None if excerpt is None else (excerpt.file, excerpt.line)
 
     def banner(self) -> Banner | None:
         """Return the banner for the window's footer, None while the run goes on."""

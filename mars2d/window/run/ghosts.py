@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.bodies.colors import prop_colors
-from mars2d.core.scene import Anchor, Line, Scene, faded
+from mars2d.core.scene import Anchor, Scene, faded
 from mars2d.output.layers.bodies import draw_prop, draw_robot
 from mars2d.output.layers.forces import bounding_circle
 from mars2d.record.frame import Frame
@@ -25,10 +25,6 @@ MAX_BODIES, MAX_PATHS = 6, 3
 """How many bodies and paths of a branch are drawn: those farthest from the present branch."""
 MIN_POINTS = 64
 """A path is thinned to this many points, or up to twice as many."""
-MIN_DASH = 0.008
-"""The shortest dash of a path, in widths of the workspace."""
-MAX_DASHES = 80
-"""The number of dashes in a branch."""
 APART = 1e-6
 """Bodies this near to their pose in the present branch are not drawn, metres or radians."""
 NAME_COLOR = "#707070"
@@ -93,13 +89,8 @@ class _Ghost:
                 (history.pose, body) if body < n else (history.prop_pose, body - n)
             ]
         ]
-        xmin, xmax, ymin, ymax = self.frame.scenario.bounds
-        dash = MIN_DASH * max(xmax - xmin, ymax - ymin)
-        while sum(map(_length, ways)) > 2 * MAX_DASHES * dash:
-            dash *= 2
         for body, way in zip(bodies, ways, strict=True):
-            color = faded(self._color(body), 0.7)
-            scene.extend(Line(piece, color, 1.2) for piece in _dashed(way, dash))
+            scene.line(way, stroke=faded(self._color(body), 0.7), width=1.2, style="--")
 
     def _color(self, body: int) -> str:
         scenario = self.world.scenario
@@ -137,16 +128,3 @@ def _thinned(path: Float) -> Float:
     while len(path) > 2 * MIN_POINTS * stride:
         stride *= 2
     return path[::stride]
-
-
-def _length(path: Float) -> float:
-    return float(np.hypot(*np.diff(path, axis=0).T).sum())
-
-
-def _dashed(path: Float, dash: float) -> Float:
-    """Return the ends (m, 2, 2) of the dashes of a path (k, 2)."""
-    along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(path, axis=0).T))])
-    starts = np.arange(0.0, along[-1], 2 * dash)
-    ends = np.minimum(starts + dash, along[-1])
-    at = np.stack([starts, ends], axis=1)
-    return np.stack([np.interp(at, along, path[:, axis]) for axis in (0, 1)], axis=2)

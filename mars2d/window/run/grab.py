@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable
 from contextlib import suppress
 from math import dist
+from typing import Literal
 
 import pygame
 
@@ -20,7 +21,6 @@ from mars2d.window.run.drags import (
     HALO,
     LABEL,
     Act,
-    Drag,
     Move,
     Pull,
     Turn,
@@ -29,10 +29,14 @@ from mars2d.window.run.drags import (
     local_point,
     with_pose,
 )
+from mars2d.window.run.push import Aim
 from mars2d.window.screen.picking import Finder, Hover
 from mars2d.world.operator import fixed, forceless
 
 Pixel = tuple[int, int]
+Drag = Pull | Aim | Move | Turn
+"""A drag of the mouse that has begun on a body."""
+Kind = Literal["carry", "push", "turn"]
 
 CLICK = 5.0
 """A press that moves by less than this is a click, points."""
@@ -57,7 +61,7 @@ class Grab:
         self.click = CLICK  # pixels
         self._finder = Finder()
         self._hover: Hover | None = None
-        self._pressed: tuple[Pixel, int, int, float] | None = None  # pixel, body, button, since
+        self._pressed: tuple[Pixel, int, Kind, float] | None = None  # pixel, body, kind, since
         self._drag: Drag | None = None
         self._running = False  # when the drag began
         self._grip: Point = (0.0, 0.0)  # where the body was pressed, in its own frame
@@ -108,11 +112,13 @@ class Grab:
         self.move(frame, camera, pixel, running)
         if self.busy:
             return True
-        turns = button == pygame.BUTTON_RIGHT or bool(mods & pygame.KMOD_SHIFT)
-        mine = button in (pygame.BUTTON_LEFT, pygame.BUTTON_RIGHT) and not (turns and running)
-        if self.over is None or not mine:
+        kinds: dict[int, Kind] = {
+            pygame.BUTTON_LEFT: "push" if mods & pygame.KMOD_SHIFT else "carry",
+            pygame.BUTTON_RIGHT: "turn",
+        }
+        kind = kinds.get(button)
+        if self.over is None or kind is None or (kind == "turn" and running):
             return False
-        kind = pygame.BUTTON_RIGHT if turns else pygame.BUTTON_LEFT
         self._pressed = pixel, self.over, kind, self._clock()
         self._grip = local_point(frame, self.over, _world(camera, pixel))
         return True
@@ -150,21 +156,24 @@ class Grab:
     def _begin(self, frame: Frame, camera: Camera, running: bool) -> None:
         """Begin the drag that the held button asks for, if it is possible."""
         assert self._pressed is not None
-        (pixel, body, button, _), self._pressed = self._pressed, None
+        (pixel, body, kind, _), self._pressed = self._pressed, None
         self._running = running
         scenario, start = frame.scenario, _world(camera, pixel)
-        if running:
+        if running or kind == "push":
             fault = forceless(scenario, body)
-            fault = fault and fault.replace("put it elsewhere", "pause, and put it elsewhere")
+            if running:
+                fault = fault.replace("put it elsewhere", "pause, and put it elsewhere")
         else:
             fault = fixed(scenario, body)
         if fault:
             self._say(fault)
+        elif kind == "push":
+            self._drag = Aim(self._do, scenario, body, self._grip)
         elif running:
             self._drag = Pull(self._do, scenario, body, self._grip, start)
         else:
-            kind = Move if button == pygame.BUTTON_LEFT else Turn
-            self._drag = kind(self._do, self._clock, frame, body, start)
+            placement = Move if kind == "carry" else Turn
+            self._drag = placement(self._do, self._clock, frame, body, start)
 
     def _do(self, act: Act) -> bool:
         """Do something to the world; show an InputError, and end a pull that is refused."""

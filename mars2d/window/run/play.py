@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from mars2d.addons.contest import Contest
+from mars2d.bodies.drives.base import Drive
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import Steer
 from mars2d.scenario.examples import examples, experiment_name
@@ -16,11 +17,19 @@ from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.law_reference import Reference
 from mars2d.scenario.roles import contests_of, role_of, roles_of
 from mars2d.window.run.director import Director
+from mars2d.window.run.driver import Driver
 from mars2d.window.run.scores import Scores, Tally
 from mars2d.window.screen.memory import Memory
 from mars2d.window.screen.player import Player
 from mars2d.world.record import Record
+from mars2d.world.teleop import Stick
 
+WAYS = (Stick(0, 1), Stick(-1, 0), Stick(0, -1), Stick(1, 0))
+"""What the keys of a person stand for, in the order of their labels."""
+FASTER = 1.25
+"""By how much a game goes faster after it was won, and slower after it was lost."""
+NEXT = 0
+"""The number that begins with the next start, at the end of a game."""
 COUNTDOWN = 3.0
 """The time to find one's keys, seconds of the clock."""
 LONGEST_PICTURE = 0.1
@@ -29,7 +38,7 @@ LONGEST_PICTURE = 0.1
 
 @dataclass(frozen=True, slots=True)
 class Seat:
-    """A person's place: the robot, by its index, its role or "", and the labels of the keys."""
+    """A person's place: the robot, by its index, its role or "", and its keys that do something."""
 
     robot: int
     role: str
@@ -49,12 +58,14 @@ class Choice:
 class Result:
     """How a game has ended: for the people, in a few words, and the robots that have won.
 
-    news: what is new about it, such as a best time, or why it does not count; or "".
+    news: what is new about it, such as a best time, or why it does not count; or "". faster: by how
+    much the next one is played faster.
     """
 
     words: str
     winners: tuple[int, ...]
     news: str = ""
+    faster: float = 1.0
 
 
 class Play:
@@ -67,6 +78,7 @@ class Play:
         """Start with nobody seated; `begin` seats people and counts down."""
         self._player, self._director = player, director
         self._scores, self._both = Scores(memory, game), Scores(memory, f"{game}, two people")
+        self._slowest = player.speed
         self.seats: tuple[Seat, ...] = ()
         self.counting = 0.0  # seconds to go
         self.result: Result | None = None
@@ -94,13 +106,16 @@ class Play:
         return not self.seats or self.result is not None
 
     def choose(self, number: int) -> bool:
-        """Begin with the roles of a number; return whether there are such, and it is time."""
-        choice = next((each for each in self.choices if each.number == number), None)
-        if choice is None or not self.choosing:
+        """Begin with the roles of a number, or `NEXT`; return whether it is time for it."""
+        robots = {each.number: each.robots for each in self.choices}.get(number, ())
+        goes_on = number == NEXT and self.result is not None
+        if not (robots or goes_on) or not self.choosing:
             return False
-        if self._player.source.newest:
+        if goes_on:
+            self._director.next_start()
+        elif self._player.source.newest:
             self._player.restart()
-        self.begin(choice.robots)
+        self.begin(robots)
         return True
 
     def begin(self, robots: Sequence[int] = ()) -> None:
@@ -109,9 +124,12 @@ class Play:
         scenario = self._player.source.scenario
         self._director.seat(robots)
         self.seats = tuple(
-            Seat(robot, role_of(scenario, robot), driver.keys.labels)
+            Seat(robot, role_of(scenario, robot), _live_keys(scenario.robots[robot].drive, driver))
             for robot, driver in zip(robots, self._director.drivers, strict=False)
         )
+        if self.result is not None and self.result.faster != 1:
+            speed = self._player.speed * self.result.faster
+            self._player.set_speed(max(speed, self._slowest))
         self.result = None
         self.counting = COUNTDOWN if self.seats and not self._player.manual else 0.0
         self._player.pause()
@@ -134,9 +152,15 @@ class Play:
         elif self.result is None and self.seats and player.over and not player.failed:
             self.result = self._ended()
             return True
-        elif self.result is not None and not (player.over or player.past):
+        elif self.result is not None and not self._is_decided:
             self.result = None  # somebody went back, and something else has happened
         return False
+
+    @property
+    def _is_decided(self) -> bool:
+        """Whether the run is over, whatever part of it is looked at."""
+        timeline = self._director.timeline
+        return timeline is not None and timeline.world.over
 
     def _ended(self) -> Result | None:
         """Return how the game has ended, and note it in the scores."""
@@ -147,15 +171,17 @@ class Play:
         if contest is None or not len(record):
             return Result(record.over_message, ())
         winner = contest.outcome(record).winner
-        teams = roles_of(record.scenario)
+        winners = roles_of(record.scenario).get(winner or "", ())
         mine = [seat for seat in self.seats if seat.role]
+        news = self._noted(record, winner, mine)
         if winner is None:
-            words = "A draw"
-        elif len(self.seats) > 1 or not mine:
-            words = f"{winner[:1].upper()}{winner[1:]} {'win' if winner.endswith('s') else 'wins'}"
-        else:
-            words = "You win" if winner == mine[0].role else "You lose"
-        return Result(words, teams.get(winner or "", ()), self._noted(record, winner, mine))
+            return Result("A draw", winners, news)
+        if len(self.seats) > 1 or not mine:
+            verb = "win" if winner.endswith("s") else "wins"
+            return Result(f"{winner[:1].upper()}{winner[1:]} {verb}", winners, news)
+        if winner == mine[0].role:
+            return Result("You win", winners, news, FASTER)
+        return Result("You lose", winners, news, 1 / FASTER)
 
     def _noted(self, record: Record, winner: str | None, seats: Sequence[Seat]) -> str:
         """Note an end in the scores; return the news, or why it does not count."""
@@ -196,19 +222,28 @@ class Play:
         return {role: f"{points:g} {what}".strip() for (role, points), what in pairs}
 
     def distance(self, frame: Frame) -> float | None:
-        """Return the distance [m] of the nearest two robots of different roles, middle to middle.
+        """Return the distance [m] of the nearest hunter and hunted one, middle to middle.
 
-        Robots that are out of the game do not count. None if there are no two.
+        Robots that are out of the game do not count, and of those in a single person's role only
+        the person's own, if it hunts or is hunted. None if there are no two.
         """
         timeline, contest = self._director.timeline, self.contest
         if timeline is None or contest is None:
             return None
         held = timeline.world.operator.held
-        teams = contest.teams(frame.scenario)
+        own = [seat.robot for seat in self.seats if len(self.seats) == 1]
+        players = contest.players(frame.scenario)
+        teams = [[robot for robot in team if robot in own] or [*team] for team in players]
         free = [[robot for robot in team if robot not in held] for team in teams]
-        one, other = free if all(free) else map(list, teams)
+        one, other = free if all(free) else teams
         apart = frame.pose[:2, one, None] - frame.pose[:2, None, other]
         return float(np.hypot(*apart).min())
+
+    @property
+    def task(self) -> str:
+        """What there is to do where nobody wins: the first line of the experiment's docstring."""
+        timeline = self._director.timeline
+        return "" if timeline is None else timeline.experiment.source.summary
 
     def played_by(self, role: str) -> str:
         """Return who plays a role, in words: a person, or the name of a law."""
@@ -220,6 +255,13 @@ class Play:
         laws = {Reference.of(scenario.robots[robot].controller) for robot in team}
         found = [Path(law.file).stem for law in laws if law is not None]
         return found[0] if len(found) == 1 else "its law"
+
+
+def _live_keys(drive: Drive, driver: Driver) -> tuple[str, ...]:
+    """Return the labels of the keys that change a drive's command."""
+    rest = drive.steered(*Stick())
+    pairs = zip(driver.keys.labels, WAYS, strict=True)
+    return tuple(label for label, way in pairs if drive.steered(*way) != rest)
 
 
 def _news(before: Tally, won: bool | None, time: float | None) -> str:
@@ -235,14 +277,14 @@ def _news(before: Tally, won: bool | None, time: float | None) -> str:
 def game_of(experiment: Experiment) -> str:
     """Return the name under which the scores of a game are kept: with other options, another one.
 
-    Another seed may begin elsewhere. How it is drawn does not count.
+    Its seeds are starts of one game. How it is drawn does not count.
 
     >>> from mars2d.scenario.experiment import open_experiment
     >>> game_of(open_experiment("corner_game", {"mu": 0.8}))
     'corner_game, mu = 0.8'
     """
     options = {k: v for k, v in experiment.options.items() if k.partition(".")[0] != "animation"}
-    options |= {"seed": experiment.seed} if experiment.seed else {}
+    options.pop("seed", None)
     path = experiment.source.path
     name = experiment.scenario.title if path is None else str(path.absolute())
     if path is not None and path in examples().values():

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from typing import NamedTuple
+from collections.abc import Iterator, Sequence
 
 import pygame
 
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
 from mars2d.scenario.roles import roles_of
-from mars2d.window.run.play import Play, Seat
-from mars2d.window.widgets.dock import Panel
+from mars2d.window.panels.rows import Row, RowsPanel
+from mars2d.window.run.play import NEXT, Play, Seat
 from mars2d.window.widgets.help import draw_cap
 from mars2d.window.widgets.words import Word, write_line
 
@@ -25,49 +24,36 @@ MAX_LINES = 3
 """The most lines of why a game has ended."""
 
 
-class Part(NamedTuple):
-    """A part of the panel: its height [points], and the function that draws it."""
-
-    height: float
-    draw: Callable[[pygame.Surface, pygame.Rect], object]
-
-
-class ScorePanel(Panel):
+class ScorePanel(RowsPanel):
     """Shows how a game stands, the keys of those who play, and in the end who has won and why."""
 
     name, title, remembered = "score", "The game", False
 
     def __init__(self, painter: Painter, play: Play) -> None:
         """Start open."""
-        self.painter, self.play = painter, play
-        self.wanted = True
+        super().__init__(painter)
+        self.play, self.wanted = play, True
 
     def heights(self, frame: Frame, width: float) -> tuple[float, float]:
         """Return the height of how it stands, and that with how it has ended."""
-        standing = sum(part.height for part in self._standing(frame, width))
-        end = sum(part.height for part in self._ending(frame, width))
-        return standing, standing + end
+        standing = sum(row.height for row in self._standing(frame, width))
+        return standing, standing + sum(row.height for row in self._ending(frame, width))
 
-    def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:
-        """Draw the parts one below the other, as many as there is room for."""
-        ui, top, width = self.painter.ui, float(rect.top), rect.width / self.painter.ui
-        for height, draw in [*self._ending(frame, width), *self._standing(frame, width)]:
-            if top + height * ui > rect.bottom + 1:
-                break
-            draw(surface, pygame.Rect(rect.left, round(top), rect.width, round(height * ui)))
-            top += height * ui
+    def rows(self, frame: Frame, width: float) -> Sequence[Row]:
+        """Return how it has ended, and how it stands."""
+        return [*self._ending(frame, width), *self._standing(frame, width)]
 
-    def _standing(self, frame: Frame, width: float) -> Iterator[Part]:
+    def _standing(self, frame: Frame, width: float) -> Iterator[Row]:
         """Yield the parts that are seen during a game."""
         play, scenario, theme = self.play, frame.scenario, self.painter.theme
         left = max(scenario.stop_time - frame.time, 0.0)
         at_end = Word(f"{left:.1f} s", theme.ink, 24, bold=True)
-        yield self._line(TIME, [Word("time left", theme.muted, SMALL)], [at_end])
+        yield self.line(TIME, [Word("time left", theme.muted, SMALL)], [at_end])
         distance = play.distance(frame)
         if distance is not None:
             at_end = Word(f"{distance:.2f} m", theme.ink, SIZE, bold=True)
-            yield self._line(ROW, [Word("distance", theme.muted, SMALL)], [at_end])
-        yield Part(GAP, self._rule)
+            yield self.line(ROW, [Word("distance", theme.muted, SMALL)], [at_end])
+        yield Row(GAP, self._rule)
         score = play.score()
         for role, team in roles_of(scenario).items():
             seats = [seat for seat in play.seats if seat.robot in team]
@@ -77,10 +63,10 @@ class ScorePanel(Panel):
             if not seat.role:
                 about = str(scenario.robots[seat.robot].name), "you", ""
                 yield from self._role(frame, seat.robot, about, [seat], width)
-        first = next((seat.role for seat in play.seats if seat.role), "")
-        if words := play.tally(first).in_words if first else "":
-            yield Part(GAP, self._rule)
-            yield from self._wrapped(f"so far as {first}: {words}", width, 2)
+        for role in dict.fromkeys(seat.role for seat in play.seats if seat.role):
+            if words := play.tally(role).in_words:
+                yield Row(GAP, self._rule)
+                yield from self._text(f"so far as {role}: {words}", width, 2)
 
     def _role(
         self,
@@ -89,62 +75,55 @@ class ScorePanel(Panel):
         about: tuple[str, str, str],
         seats: Sequence[Seat],
         width: float,
-    ) -> Iterator[Part]:
+    ) -> Iterator[Row]:
         """Yield a role, who plays it, its points, and for each person the keys and the aim."""
         theme, contest = self.painter.theme, self.play.contest
         role, by, points = about
         words = Word(role, theme.ink, SIZE, bold=True), Word(by, theme.muted, SMALL)
         color = theme.shade(frame.scenario.colors[robot])
-        yield self._line(ROW, words, [Word(points, theme.ink, SIZE, bold=True)], color)
+        yield self._dotted(words, [Word(points, theme.ink, SIZE, bold=True)], color)
         for seat in seats:
             yield self._keys(seat.keys)
             if contest is not None and seat.role:
-                yield from self._wrapped(contest.aim(seat.role, frame.scenario), width, 2)
-            yield self._line(GAP / 2)
+                yield from self._text(contest.aim(seat.role, frame.scenario), width, 2)
+            elif contest is None:
+                yield from self._text(self.play.task, width, MAX_LINES)
+            yield self.line(GAP / 2)
 
-    def _ending(self, frame: Frame, width: float) -> Iterator[Part]:
+    def _ending(self, frame: Frame, width: float) -> Iterator[Row]:
         """Yield how a game has ended, why, and the keys to go on with; nothing before."""
         result, theme = self.play.result, self.painter.theme
         if result is None:
             return
-        yield self._line(WORDS, [Word(result.words, theme.running.ink, LARGE, bold=True)])
-        yield from self._wrapped(frame.over_message, width, MAX_LINES)
-        yield from self._wrapped(result.news, width, 2)
+        yield self.line(WORDS, [Word(result.words, theme.running.ink, LARGE, bold=True)])
+        yield from self._text(frame.over_message, width, MAX_LINES)
+        yield from self._text(result.news, width, 2)
         yield self._keys(("R",), "play again")
+        yield self._keys((str(NEXT),), "next start")
         numbers = tuple(str(choice.number) for choice in self.play.choices)
         if numbers:
             yield self._keys(numbers, "other roles")
-        yield Part(GAP, self._rule)
+        yield Row(GAP, self._rule)
 
-    def _wrapped(self, text: str, width: float, most: int) -> Iterator[Part]:
+    def _text(self, text: str, width: float, most: int) -> Iterator[Row]:
         """Yield lines of text."""
-        ui, theme = self.painter.ui, self.painter.theme
-        for line in self.painter.fonts.wrap(text, SMALL * ui, width * ui, most) if text else ():
-            yield self._line(LINE, [Word(line, theme.text, SMALL)])
+        yield from self.wrapped(LINE, Word(text, self.painter.theme.text, SMALL), width, most)
 
     # -- drawing ------------------------------------------------------------------------------
 
-    def _line(
-        self,
-        height: float,
-        left: Sequence[Word] = (),
-        right: Sequence[Word] = (),
-        color: str | None = None,
-    ) -> Part:
-        """Return a line of words; color: of a dot before them."""
+    def _dotted(self, left: Sequence[Word], right: Sequence[Word], color: str) -> Row:
+        """Return a line of words behind a dot of a colour."""
         painter = self.painter
 
         def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
-            if color is not None:
-                half = round(DOT / 2 * painter.ui)
-                draw_dot(surface, painter, color, (rect.left + half, rect.centery))
-                inset = round((DOT + 8) * painter.ui)
-                rect = pygame.Rect(rect.left + inset, rect.top, rect.width - inset, rect.height)
-            write_line(surface, rect, painter, left, right)
+            half, inset = round(DOT / 2 * painter.ui), round((DOT + 8) * painter.ui)
+            draw_dot(surface, painter, color, (rect.left + half, rect.centery))
+            rest = pygame.Rect(rect.left + inset, rect.top, rect.width - inset, rect.height)
+            write_line(surface, rest, painter, left, right)
 
-        return Part(height, draw)
+        return Row(ROW, draw)
 
-    def _keys(self, keys: tuple[str, ...], does: str = "") -> Part:
+    def _keys(self, keys: tuple[str, ...], does: str = "") -> Row:
         """Return the caps of keys, and what they do."""
         painter = self.painter
 
@@ -153,7 +132,7 @@ class ScorePanel(Panel):
             place = x, rect.centery
             painter.write(surface, does, SIZE * painter.ui, painter.theme.text, midleft=place)
 
-        return Part(KEYS, draw)
+        return Row(KEYS, draw)
 
     def _rule(self, surface: pygame.Surface, rect: pygame.Rect) -> None:
         surface.fill(self.painter.theme.edge, (rect.left, rect.centery, rect.width, 1))

@@ -6,24 +6,29 @@ import time
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
+from subprocess import Popen
 from typing import TYPE_CHECKING
 
 import pygame
 
-from mars2d.core.errors import Mars2dError, counted
+from mars2d.core.errors import InputError, Mars2dError, counted
 from mars2d.core.plane import Point
+from mars2d.core.scene import Scene
 from mars2d.output.layers.table import Layers
 from mars2d.output.raster.bars import Banner, Status, draw_footer, draw_header, footer_height
 from mars2d.output.raster.layout import Layout, fitted
 from mars2d.output.raster.picture import arena_of, summary
 from mars2d.output.raster.stage import MEMORY, Stage
 from mars2d.record.frame import Frame
+from mars2d.record.interventions import Intervention, pushes_at
 from mars2d.scenario.controllers import standing_still
 from mars2d.scenario.examples import experiment_name
+from mars2d.window.panels.impact import Impact
 from mars2d.window.panels.inspector import Inspector
 from mars2d.window.panels.lesson import Lesson
 from mars2d.window.panels.parameter_panel import ParameterPanel
 from mars2d.window.panels.predictions import Predictions
+from mars2d.window.panels.printed import Printed
 from mars2d.window.panels.scopes import Scopes
 from mars2d.window.run import keys
 from mars2d.window.run.context import (
@@ -39,12 +44,16 @@ from mars2d.window.run.ending import Ending
 from mars2d.window.run.ghosts import ghosts
 from mars2d.window.run.grab import CLICK, Grab
 from mars2d.window.run.hints import hints_of
+from mars2d.window.run.measure import Ruler, Stopwatch
 from mars2d.window.run.mouse import Mouse
 from mars2d.window.run.play import Play
 from mars2d.window.run.player_window import PlayerWindow
+from mars2d.window.run.push import EXPECTED, draw_pushes, pushed, suggested
+from mars2d.window.run.question import Question
 from mars2d.window.run.reload import Reload
 from mars2d.window.run.scope_menu import ScopeMenu
 from mars2d.window.run.score_panel import ScorePanel
+from mars2d.window.run.text_editor import open_at
 from mars2d.window.run.toolbar import Toolbar
 from mars2d.window.screen.display import (
     Preferences,
@@ -56,6 +65,7 @@ from mars2d.window.screen.source import Playback, Source
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.dock import Dock
 from mars2d.window.widgets.notes import Progress, draw_progress
+from mars2d.world.operator import forceless
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
 
@@ -100,10 +110,13 @@ class Window(PlayerWindow):
         self._cast = _cast(source)
         painter = self._painter = self.looks.painter
         self._stage = Stage(painter, MEMORY)
-        self._selection = Selection()
+        self._selection, self._question = Selection(), Question()
+        self._ruler, self._stopwatch = Ruler(), Stopwatch()
+        self._editors: list[Popen[bytes]] = []  # that were opened
+        self._printed = Printed(painter, lambda: self.player.source.frame.time)
         self._inspector = Inspector(painter, self._selection)
         self._predictions = Predictions(painter, timeline)
-        self._lesson = Lesson(painter, _path(source))
+        self._lesson, self._impact = Lesson(painter, _path(source)), Impact(painter, self.player)
         self.parameters = ParameterPanel(painter, self.player, self._selection, self._set_parameter)
         bounds = source.bounds if isinstance(source, Playback) else None
         self.viewpoint = Viewpoint(source.scenario, self._layout(size, None), bounds)
@@ -115,12 +128,18 @@ class Window(PlayerWindow):
             "contacts": lambda: self.toolbar.open(
                 "contacts", partial(entries_of_contacts, self.player, self._actions)
             ),
+            "printed": lambda: self.dock.switch("printed"),
+            "ruler": self._measure_or_not,
+            "stopwatch": lambda: self._stopwatch.press(self.player.frame.time),
+            "source": self._open_source,
             "predictions": partial(
                 self._offer_panel, self._predictions, "checks, which compare a run with theory"
             ),
             "lesson": partial(
                 self._offer_panel, self._lesson, "lesson: a docstring with Question: and the like"
             ),
+            "within": partial(self._step_within, 1),
+            "within_back": partial(self._step_within, -1),
             "branch": self._other_branch,
             "undo": self._undo,
             "scopes": self._open_scopes,
@@ -130,15 +149,19 @@ class Window(PlayerWindow):
             "follow": self._follow_or_not,
             "parameters": self._show_parameters,
             "drive": self._drive_or_not,
+            "push": self._ask_for_push,
             "edit": self._open_editor,
             "film": self.saver.film_or_not,
             "python": self._save_python,
         }
         self.scopes: Scopes = Scopes(painter, self.player, self._actions)
-        self.dock = Dock(
+        self.dock: Dock = Dock(
             painter,
-            [self._inspector, self.scopes, self.parameters, self._predictions, self._lesson],
-        )
+            [
+                self._inspector, self.scopes, self.parameters, self._predictions, self._lesson,
+                self._printed, self._impact,
+            ],
+        )  # fmt: skip
         buttons = self._actions | {"branch": self._choose_branch}
         for name, panel in (("predictions", self._predictions), ("lesson", self._lesson)):
             if not panel.offered:
@@ -159,6 +182,11 @@ class Window(PlayerWindow):
     def remembered(self) -> dict[str, object]:
         """How the window looks, to be remembered: size [points], colours, size of text, panels."""
         return self.looks.remembered(self.layout.size) | {"panels": self.dock.opened}
+
+    def run(self) -> None:
+        """Do what any window does, and show what laws print."""
+        with self._printed.listening():
+            super().run()
 
     def arena(self) -> pygame.Surface:
         """Return a picture of the arena alone, without any bars."""
@@ -276,6 +304,16 @@ class Window(PlayerWindow):
         if self.selected is not None:
             marks = [*selection_mark(frame, self.selected).shapes, *marks]
         timeline = self.director.timeline
+        source, done = self.player.source, list[Intervention]()
+        if timeline is not None:
+            done = timeline.world.operator.log
+        elif isinstance(source, Playback):
+            done += source.record.interventions
+        scene, dt = Scene(), frame.scenario.sampling_time
+        draw_pushes(scene, frame, pushes_at(done, frame.time, dt), self.camera)
+        pointer = None if self._pointer is None else self._point_at(self._pointer)
+        self._ruler.draw(scene, frame, self.camera, pointer)
+        marks = [*marks, *scene.shapes]
         others = [] if timeline is None else ghosts(timeline, frame).shapes
         self._stage.draw(
             surface,
@@ -295,11 +333,13 @@ class Window(PlayerWindow):
             self.notes.draw(surface, layout.plot, self._painter, time.monotonic(), off)
         if self._way_back is not None:
             draw_progress(surface, layout.plot, self._painter, self._way_back)
+        self._stopwatch.draw(surface, self.viewpoint.room, self._painter, frame.time)
         self._draw_bars(surface, frame, banner)
         if self._before is not None and notes:
             self._before.draw(surface, self.viewpoint.room, layout.plot, self.camera, frame)
         if notes:
             self.toolbar.draw(surface, layout, self._painter, self._pointer)
+            self._question.draw(surface, layout.plot, self._painter)
         self.help.draw(surface, layout, self._painter, keys.GROUPS.items())
 
     def _selected_pixel(self, frame: Frame) -> tuple[float, float] | None:
@@ -359,6 +399,8 @@ class Window(PlayerWindow):
     # -- events ---------------------------------------------------------------------------------
 
     def _take(self, event: pygame.Event) -> bool:
+        if self._question.handle(event):
+            return True
         over = self.editor is None and self.toolbar.menu.is_open and self.toolbar.handle(event)
         if not over and self.director.handle(event):
             return True
@@ -379,6 +421,8 @@ class Window(PlayerWindow):
     def _point(self, event: pygame.Event) -> None:
         if event.type == pygame.MOUSEBUTTONDOWN:
             self.parameters.leave()
+            if self.player.failed and self.layout.footer.collidepoint(event.pos):
+                self._open_source()
         self._mouse.handle(event)
 
     def _is_picture(self, pixel: tuple[int, int]) -> bool:
@@ -387,17 +431,28 @@ class Window(PlayerWindow):
         return not over and self.layout.plot.collidepoint(pixel)
 
     def _select_at(self, point: Point) -> None:
-        """Select the body at a point [m] of the picture, or nothing."""
-        slack = self.grab.click / self.camera.scale
-        self.select(body_at(self.player.frame, point, slack))
+        """Select the body at a point [m] of the picture, or nothing; or measure there."""
+        body = body_at(self.player.frame, point, self.grab.click / self.camera.scale)
+        if self._ruler.on:
+            self._ruler.mark(point if body is None else body)
+        else:
+            self.select(body)
+
+    def _point_at(self, pixel: tuple[int, int]) -> Point:
+        """Return the point [m] at a pixel."""
+        ((x, y),) = self.camera.to_world([pixel]).tolist()
+        return x, y
 
     def _offer(self, point: Point) -> None:
         """Open the menu of what can be done with the thing at a point [m] of the picture."""
+        self._ruler.end()
         self._select_at(point)
         ((x, y),) = self.camera.to_pixels([point]).astype(int).tolist()
         frame, body = self.player.frame, self.selected
         if body is None:
-            entries = entries_of_place(point, self.grab.name, self.director, self._actions)
+            entries = entries_of_place(
+                point, self.grab.name, self.director, self._actions, self._measure_from
+            )
         else:
             entries = entries_of_body(frame, body, self.director, self._actions)
         self.toolbar.menu.open("offer", lambda: entries, (x, y))
@@ -434,9 +489,15 @@ class Window(PlayerWindow):
             self.notes.say(f"this file has no {lacks}", "warning")
 
     def _to_contact(self, go: Callable[[], None]) -> None:
-        """Go to a contact of the selected body, or of any; forces are shown there."""
+        """Go to a contact of the selected body, or of any; forces and its card are shown there."""
         self.player.body = self.selected
         super()._to_contact(go)
+        self._impact.open()
+
+    def _step_within(self, way: int) -> None:
+        """Go to another moment within a control step; forces are shown there."""
+        self.layers = self.layers.switched(forces=True, impulses=True)
+        self.director.step_within(way)
 
     def _open_scopes(self) -> None:
         """Open the menu of plots."""
@@ -498,9 +559,11 @@ class Window(PlayerWindow):
         self.notes.say(f"the camera follows {who}; L ends it")
 
     def _end_activity(self) -> bool:
-        """End a drag, stop driving, select nothing, or pause a game; return whether it did so."""
+        """End a drag, measuring or driving, select nothing, pause a game; return whether it did."""
         if self.grab.busy:
             self.grab.cancel()
+        elif self._ruler.on:
+            self._ruler.end()
         elif self._drives and self.game is None:
             self.director.let_go()
         elif self.selected is not None:
@@ -561,6 +624,51 @@ class Window(PlayerWindow):
             robot = self.selected or 0
             self.select(robot)
             self.director.drive(robot)
+
+    def _measure_from(self, point: Point) -> None:
+        """Begin to measure at a point [m]."""
+        self._ruler.begin(None)
+        self._ruler.mark(point)
+
+    def _measure_or_not(self) -> None:
+        """Begin to measure, from the selected body if there is one; to another; or no more."""
+        ruler, body = self._ruler, self.selected
+        if not ruler.on:
+            ruler.begin(body)
+            self.notes.say("click two points or bodies, or select one and press F8; Esc ends it")
+        elif len(ruler.ends) < 2 and body is not None and body not in ruler.ends:
+            ruler.mark(body)
+        else:
+            ruler.end()
+
+    def _open_source(self) -> None:
+        """Open the experiment's file in the person's own editor, at the line of an error."""
+        path = _path(self.player.source)
+        where = self._ending.line or (path and (path, 1))
+        if not where:
+            self.notes.say("there is no file to open", "warning")
+            return
+        try:
+            self._editors.append(open_at(*where))
+        except InputError as error:
+            self.notes.say(str(error), "error")
+
+    def _ask_for_push(self) -> None:
+        """Ask for the force on the selected body, and push it."""
+        body, frame = self.selected, self.player.frame
+        if body is None:
+            self.notes.say("Tab selects what is pushed", "warning")
+        elif fault := forceless(frame.scenario, body):
+            self.notes.say(fault, "warning")
+        else:
+
+            def push(text: str) -> None:
+                force, seconds = pushed(text, self.player.frame.body_pose(body)[2])
+                if self.director.change(lambda world: world.operator.push(body, force, seconds)):
+                    self.notes.say(f"a push of {text.strip()}")
+
+            name = frame.scenario.bodies[body].name
+            self._question.ask(f"Push {name}, {EXPECTED}", suggested(frame, body), push)
 
     def say_who_stands_still(self) -> None:
         """Say which robots of a drawn scenario nothing moves, or that nothing moves any."""

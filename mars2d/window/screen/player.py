@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Literal
 
@@ -71,6 +71,8 @@ class Player:
         self._previous: Frame | None = None
         self._time = self._present.time
         self._seen: tuple[Frame, float, Frame] | None = None  # next frame, time, interpolated
+        self._moments: Sequence[Frame] = ()  # within a control step, from the row on
+        self._moment = 0  # the one that is shown
         self._pace: deque[tuple[float, float]] = deque()
 
     @property
@@ -110,6 +112,8 @@ class Player:
     @property
     def frame(self) -> Frame:
         """The frame to draw: between the last two while time passes, else the last."""
+        if self._moments:
+            return self._moments[self._moment]
         present, previous = self._present, self._previous
         if previous is None or self._time >= present.time or present.time <= previous.time:
             return present
@@ -176,6 +180,17 @@ class Player:
         self._todo = max(left, count)
         self._do_steps()
 
+    def look_within(self, moments: Sequence[Frame]) -> None:
+        """Show the row, and with `step_within` the moments within the step that follows it."""
+        self.pause()
+        self._moments = [self._present, *moments]
+
+    def step_within(self, way: int) -> bool:
+        """Show the next moment within a step, or for -1 the last one; return if there is one."""
+        there = 0 <= self._moment + way < len(self._moments)
+        self._moment += way if there else 0
+        return there
+
     def next_contact(self) -> None:
         """Go to the next row at which a contact begins; at the newest, run until one does."""
         later = [row for row in self._meetings() if row > self.source.row]
@@ -231,7 +246,7 @@ class Player:
         if self.manual:
             self.step()
             return
-        self._todo, self._seeks = 0, False
+        self._todo, self._seeks, self._moments = 0, False, ()
         if self.over and not self.failed:
             self._rewind()
             self.paused = False
@@ -275,6 +290,9 @@ class Player:
 
     def status(self) -> Status:
         """Return the state of the clock."""
+        if self._moment:
+            since = 1000 * (self.frame.time - self._present.time)
+            return f"+{since:.3g} ms  {self._moment} of {len(self._moments) - 1}", "waiting"
         if self.past:
             ago = (self.source.newest - self.source.row) * self.source.scenario.sampling_time
             return f"{self._pace_in_words() if self.playing else 'past'}  {ago:g} s ago", "past"
@@ -309,7 +327,7 @@ class Player:
     def settle(self) -> None:
         """Show the source's present frame, for example after a change of the world."""
         self._present = self.source.frame
-        self._previous = None
+        self._previous, self._moments, self._moment = None, (), 0
         self._time = self._present.time
 
     def _advance_until(self, wanted: float) -> None:

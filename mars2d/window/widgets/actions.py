@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from functools import partial
 
 import pygame
 
-from mars2d.output.controls import CONTROLS, PAUSE
+from mars2d.output.controls import CONTROLS
 
 CONTROL = pygame.KMOD_CTRL | pygame.KMOD_META
 MODIFIERS = frozenset(
@@ -82,22 +81,17 @@ def action_of(event: pygame.Event, actions: Iterable[Action]) -> Action | None:
 
 
 def of_controls(
-    names: Iterable[str],
-    acts: Mapping[str, Callable[[], object]],
-    on: Callable[[str], bool] = lambda _: False,
-    *,
-    keys: bool = True,
+    names: Iterable[str], acts: Mapping[str, Callable[[], object]], *, keys: bool = True
 ) -> list[Action]:
     """Return actions with the titles and icons of `CONTROLS`; keys: with their keys, too."""
+    controls = ((name, CONTROLS[name]) for name in names)
     return [
         Action(
             name,
-            title=CONTROLS[name].title,
-            labels=(CONTROLS[name].key,) if keys and CONTROLS[name].key else (),
+            labels=(found.key,) if keys and found.key else (),
             act=acts[name],
-            icon=CONTROLS[name].icon,
-            lit_icon=PAUSE if name == "pause" else "",
-            on=partial(on, name),
+            title=found.title,
+            icon=found.icon,
         )
-        for name in names
+        for name, found in controls
     ]

@@ -139,7 +139,8 @@ class Page:
         surface.set_clip(self._area)
         surface.fill(painter.theme.page, self._area)
         for title, place in self._headings:
-            self._draw_heading(surface, painter, title, self._seen(place))
+            size, at = TITLE * painter.ui, self._seen(place).midleft
+            painter.write(surface, title, size, painter.theme.ink, bold=True, midleft=at)
         for k, (card, place) in enumerate(self.places):
             if self._seen(place).colliderect(self._area):
                 self._draw_card(surface, painter, card, self._seen(place), chosen=k == self.chosen)
@@ -168,13 +169,6 @@ class Page:
 
     def _seen(self, place: pygame.Rect) -> pygame.Rect:
         return place.move(self._area.left, self._area.top - round(self._scroll))
-
-    @staticmethod
-    def _draw_heading(
-        surface: pygame.Surface, painter: Painter, title: str, place: pygame.Rect
-    ) -> None:
-        size, ink = TITLE * painter.ui, painter.theme.ink
-        painter.write(surface, title, size, ink, bold=True, midleft=place.midleft)
 
     def _draw_card(
         self,

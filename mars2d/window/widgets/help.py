@@ -23,7 +23,9 @@ LEGIBLE = 0.8
 """The scale below which the help is split into pages, pixels a point."""
 LEGIBLE_SHARE = 0.62
 """The same as a share of the window's scale, so that large text stays rather large."""
-MAX_COLUMNS = 3
+SHARES = (0.9, 0.8, 0.7)
+"""The scales that are tried, as shares of the window's."""
+MAX_COLUMNS, MAX_PAGES = 3, 12
 SIZE, ROW, LINE = 15.0, 33.0, 19.0
 """The heights of letters, of a row, and of each further line of a row, points."""
 HEADING, GAP = 34.0, 12.0
@@ -151,28 +153,22 @@ def _draw_column(
 
 @lru_cache(maxsize=4)
 def _plan(fonts: Fonts, groups: Named, room: tuple[int, int], ui: float) -> _Plan | None:
-    """Return the largest layout on one page, or on several pages if that is too small to read.
+    """Return the largest layout on one page, or on few pages if that is too small to read.
 
     room: width and height, pixels.
     """
-    least, size = max(min(LEGIBLE, ui), LEGIBLE_SHARE * ui), ui
-    while size >= least:
+    least = max(min(LEGIBLE, ui), LEGIBLE_SHARE * ui)
+    sizes = [ui, *(share * ui for share in SHARES if share * ui > least), least]
+    tried = [(1, size) for size in sizes] + [(count, least) for count in range(2, MAX_PAGES + 1)]
+    for pages, size in tried:
+        limit = room[1] / size - TOP - PAD + 10
         for count in range(1, MAX_COLUMNS + 1):
             column, rows = _rows(fonts, groups, room, count, size)
-            columns = _balanced(rows, count, room[1] / size - TOP - PAD + 10)
+            columns = _even(rows, limit, pages * count)
             if columns:
-                return _Plan(size, column, (columns,))
-        size *= 0.97
-    plans, limit = [], room[1] / least - TOP - PAD + 10
-    for count in range(1, MAX_COLUMNS + 1):
-        column, rows = _rows(fonts, groups, room, count, least)
-        columns = _filled(rows, limit)
-        if columns and max(map(_height, columns)) <= limit:
-            pages = [columns[k : k + count] for k in range(0, len(columns), count)]
-            plans.append(_Plan(least, column, pages))
-    if plans or ui < UNREADABLE:
-        return min(plans, key=lambda plan: len(plan.pages), default=None)
-    return _plan(fonts, groups, room, 0.8 * ui)
+                each = [columns[k : k + count] for k in range(0, len(columns), count)]
+                return _Plan(size, column, each)
+    return None if ui < UNREADABLE else _plan(fonts, groups, room, 0.8 * ui)
 
 
 def _rows(
@@ -195,15 +191,16 @@ def _rows(
     return widest, rows
 
 
-def _balanced(rows: Sequence[_Row], count: int, limit: float) -> list[list[_Row]]:
-    """Return the rows in at most `count` columns of similar height; none if they don't fit."""
-    height = _height(rows) / count
-    while height < limit:
-        columns = _filled(rows, height)
-        if len(columns) <= count and max(map(_height, columns), default=0.0) <= height:
-            return columns
-        height += ROW / 4
-    return []
+def _even(rows: Sequence[_Row], limit: float, most: int) -> list[list[_Row]]:
+    """Return at most so many columns up to a height, points, as even as can be; [] for none."""
+    best: list[list[_Row]] = []
+    height = limit
+    while rows and len(columns := _filled(rows, height)) <= most:
+        heights = [*map(_height, columns)]
+        if max(heights) <= limit and (not best or min(heights) > min(map(_height, best))):
+            best = columns
+        height -= ROW / 2
+    return best
 
 
 def _filled(rows: Sequence[_Row], limit: float) -> list[list[_Row]]:

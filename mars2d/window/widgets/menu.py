@@ -1,4 +1,4 @@
-"""Menus over the picture: of layers to show, of actions on a body, of values."""
+"""Menus over the picture or beside it: of layers, of actions on a body, of properties."""
 
 from __future__ import annotations
 
@@ -14,7 +14,10 @@ ROW, MORE, PAD, BOX = 30.0, 18.0, 8.0, 15.0
 """The heights of an entry and of a line below it, the margin, a tick box's side, points."""
 SIZE, SMALL = 14.5, 12.5
 """The heights of letters of an entry and of the line below it, points."""
+SCALE, LEAST = 0.9, 220.0
+"""How large a docked menu is, beside others, and the width below which it gets smaller, points."""
 TICK = [(0.22, 0.52), (0.42, 0.74), (0.80, 0.26)]
+SIGNS = ((1, "+"), (-1, "\N{MINUS SIGN}"))
 
 
 class Entry(NamedTuple):
@@ -22,7 +25,9 @@ class Entry(NamedTuple):
 
     act: its effect; None for a title. key: the label of a key that has the same effect. on: whether
     its tick box is ticked; None for none. colors: of dots before the title. value: what is written
-    at its right. more: a line below it.
+    at its right. more: a line below it. step: called with 1 or -1 by the buttons + and - of a
+    number. level: how far the title is indented. tone: "note" for words that are no heading,
+    "warning" for what stands out.
     """
 
     title: str
@@ -32,6 +37,9 @@ class Entry(NamedTuple):
     colors: Sequence[str] = ()
     value: str = ""
     more: str = ""
+    step: Callable[[int], object] | None = None
+    level: int = 0
+    tone: str = ""
 
 
 class Menu:
@@ -39,20 +47,24 @@ class Menu:
 
     Arrow keys and Enter choose, as do the mouse, the keys named beside the entries, and the first
     letters of a title. Esc, a click elsewhere, and commands with Ctrl or a function key close it.
-    One with tick boxes stays open until then.
+    One with tick boxes stays open until then. A docked one fills its bounds and never closes; it
+    takes keys while it has the focus.
 
     name: of what is open, or "". corner: where it was opened, pixels. plate: where it was drawn.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, *, docked: bool = False) -> None:
         """Start closed."""
         self._entries: Callable[[], Sequence[Entry]] | None = None
+        self._docked, self.focused = docked, not docked
         self.name, self.corner = "", (0, 0)
         self.plate = pygame.Rect(0, 0, 0, 0)
+        self._signs: list[tuple[Entry, int, pygame.Rect]] = []
         self._places: list[tuple[int, Entry, pygame.Rect]] = []
         self._chosen, self._typed = 0, ""  # the number of an entry; letters typed so far
         self._first = 0  # the entry at the top, where there is no room for all
-        self._stays = False
+        self._sought = False  # whether the chosen entry is to be brought into view
+        self._stays = self._pointed = False
 
     @property
     def is_open(self) -> bool:
@@ -69,6 +81,17 @@ class Menu:
     def places(self) -> dict[str, pygame.Rect]:
         """The places of the entries that can be chosen, by their titles."""
         return {entry.title: place for _, entry, place in self._places if entry.act is not None}
+
+    @property
+    def signs(self) -> dict[str, pygame.Rect]:
+        """The places of the buttons + and -, by their sign and the title of their entry."""
+        return {f"{'+' if way > 0 else '-'} {entry.title}": at for entry, way, at in self._signs}
+
+    @property
+    def below(self) -> tuple[int, int]:
+        """The pixel below the chosen entry, for a menu that it opens."""
+        shown = (place.bottomleft for k, _, place in self._places if k == self._chosen)
+        return next(shown, self.plate.topleft)
 
     def open(
         self,
@@ -98,13 +121,13 @@ class Menu:
         if not self.is_open:
             return False
         if event.type == pygame.KEYDOWN:
-            return self._press(event)
+            return self.focused and self._press(event)
         if event.type == pygame.MOUSEMOTION:
-            under = self._at(event.pos)
-            self._chosen = self._chosen if under is None else under
-            return bool(self.plate.collidepoint(event.pos))
+            self._chosen = next((k for k, _ in self._under(event.pos)), self._chosen)
+            self._pointed = bool(self.plate.collidepoint(event.pos))
+            return self._pointed
         if event.type == pygame.MOUSEWHEEL:
-            self._move(-event.y)
+            self._first, self._sought = max(0, self._first - event.y), False
             return True
         if event.type != pygame.MOUSEBUTTONDOWN:
             return False
@@ -112,18 +135,23 @@ class Menu:
             if not self._stays:
                 self.close()
             return False
-        under = self._at(event.pos)
-        if under is not None:
-            self._choose(self._listed()[under])
+        pressed = [(e.step, way) for e, way, at in self._signs if at.collidepoint(event.pos)]
+        for k, entry in self._under(event.pos):
+            self._chosen = k
+            if not pressed:
+                self._choose(entry)
+        for step, way in pressed:
+            if step is not None:
+                step(way)
         return True
 
-    def _at(self, pixel: tuple[int, int]) -> int | None:
-        """Return the number of the entry at a pixel that can be chosen, if there is one."""
-        under = (k for k, entry, place in self._places if entry.act and place.collidepoint(pixel))
-        return next(under, None)
+    def _under(self, pixel: tuple[int, int]) -> list[tuple[int, Entry]]:
+        """Return the entry at a pixel that can be chosen, with its number, if there is one."""
+        return [(k, entry) for k, entry, place in self._places
+                if entry.act and place.collidepoint(pixel)]  # fmt: skip
 
     def _choose(self, entry: Entry) -> None:
-        if entry.on is None:
+        if entry.on is None and not self._docked:
             self.close()
         if entry.act is not None:
             entry.act()
@@ -131,27 +159,33 @@ class Menu:
     def _press(self, event: pygame.Event) -> bool:
         """Move, choose or close by a key; return whether it is no command for others."""
         name, entries = pygame.key.name(event.key), self._listed()
+        self._chosen = min(self._chosen, len(entries) - 1)
         moves = {"up": -1, "down": 1, "tab": 1, "page up": -8, "page down": 8}
+        ways = {"left": -1, "right": 1}
         if name in MODIFIERS:
             return False
-        named = label_of(event)
+        named, step = label_of(event), entries[self._chosen].step
         by_key = next((entry for entry in entries if entry.act and entry.key == named), None)
         if by_key is not None:
             self._choose(by_key)
         elif name in moves:
             self._move(moves[name])
+        elif name in ways and step is not None:
+            step(ways[name])
         elif name in ("home", "end"):
             self._chosen = -1 if name == "home" else len(entries)
             self._move(1 if name == "home" else -1)
         elif name in ("return", "enter", *(() if self._stays else ("space",))):
             self._choose(entries[self._chosen])
+        elif name == "escape" and self._docked:
+            self.focused = False
         elif name == "escape" or event.mod & CONTROL or (name[0] == "f" and name[1:].isdigit()):
             if not self._stays:
                 self.close()
             return name == "escape" and not self._stays
         else:
             found = self._type(event.unicode.lower(), entries)
-            return found or not self._stays or name in ("left", "right")
+            return found or not self._stays or name in ways
         return True
 
     def _move(self, by: int) -> None:
@@ -159,7 +193,7 @@ class Menu:
         able = [k for k, entry in enumerate(self._listed()) if entry.act is not None]
         if not able or not by:
             return
-        self._typed = ""
+        self._typed, self._sought = "", True
         way = 1 if by > 0 else -1
         ahead = sorted((k for k in able if way * (k - self._chosen) > 0), key=lambda k: way * k)
         self._chosen = ahead[min(abs(by), len(ahead)) - 1] if ahead else able[0 if by > 0 else -1]
@@ -178,7 +212,7 @@ class Menu:
                      and entries[k].title.lower().startswith(typed))  # fmt: skip
             k = next(found, None)
             if k is not None:
-                self._chosen, self._typed = k, typed
+                self._chosen, self._typed, self._sought = k, typed, True
                 return True
         return False
 
@@ -190,7 +224,7 @@ class Menu:
         width, fonts = painter.fonts.width, painter.fonts
         titles = max(
             max(width(each.title, SIZE * ui, bold=each.act is None),
-                fonts.width(each.more, SMALL * ui)) + self._boxes(each, entries, ui)
+                fonts.width(each.more, SMALL * ui)) + self._before(each, entries, ui)
             for each in entries
         )  # fmt: skip
         ends = max(width(f"{each.value}{each.key}", SIZE * ui) for each in entries)
@@ -199,9 +233,10 @@ class Menu:
             sum(_height(each, ui) for each in entries) + 2 * pad,
         )
 
-    @staticmethod
-    def _boxes(entry: Entry, entries: Sequence[Entry], ui: float) -> int:
-        """Return the room before a title, for a tick box or dots, pixels."""
+    def _before(self, entry: Entry, entries: Sequence[Entry], ui: float) -> int:
+        """Return the room before a title, for a tick box or dots, or as it is indented, pixels."""
+        if self._docked:
+            return round((BOX * entry.level + (BOX + 5) * len(entry.colors)) * ui)
         most = max(max(len(each.colors), each.on is not None) for each in entries)
         return round(most * (BOX + 9) * ui) if entry.act is not None or entry.colors else 0
 
@@ -209,13 +244,21 @@ class Menu:
         """Draw it within bounds, if it is open; where there is no room for all, a part of it."""
         if self._entries is None:
             return
-        entries, theme, ui = self._entries(), painter.theme, painter.ui
-        self._arrange(entries, bounds, painter)
-        painter.panel(surface, self.plate, theme.plate, 8 * ui, theme.key_edge)
+        entries, theme = self._entries(), painter.theme
+        ui = min(SCALE * painter.ui, bounds.width / LEAST) if self._docked else painter.ui
+        self._arrange(entries, bounds, painter, ui)
+        if self._docked:
+            surface.fill(theme.bar, bounds)
+            surface.fill(theme.edge, (bounds.left, bounds.top, 1, bounds.height))
+        else:
+            painter.panel(surface, self.plate, theme.plate, 8 * ui, theme.key_edge)
+        self._signs = []
         for k, entry, place in self._places:
-            if entry.act is not None and k == self._chosen:
-                painter.panel(surface, place, theme.key, 5 * ui, theme.selected)
-            self._draw_entry(surface, entry, place, painter, self._boxes(entry, entries, ui))
+            if entry.act is not None and k == self._chosen and (self.focused or self._pointed):
+                edge = theme.selected if self.focused else theme.key_edge
+                painter.panel(surface, place, theme.key, 5 * ui, edge)
+            before = self._before(entry, entries, ui)
+            self._draw_entry(surface, entry, place, painter, ui, before)
         (first, *_), (last, *_) = self._places[0], self._places[-1]
         signs = (("▴", first > 0, "midtop"), ("▾", last + 1 < len(entries), "midbottom"))
         for sign, there, side in signs:
@@ -223,40 +266,47 @@ class Menu:
                 at = {side: getattr(self.plate, side)}
                 painter.write(surface, sign, 12 * ui, theme.muted, **at)
 
-    def _arrange(self, entries: Sequence[Entry], bounds: pygame.Rect, painter: Painter) -> None:
-        """Place the plate and the entries that are seen, the chosen one among them."""
-        ui, pad = painter.ui, round(PAD * painter.ui)
-        heights = [_height(entry, ui) for entry in entries]
-        width, height = self.size(painter)
+    def _arrange(
+        self, entries: Sequence[Entry], bounds: pygame.Rect, painter: Painter, ui: float
+    ) -> None:
+        """Place the plate and the entries that are seen, the chosen one among them if sought."""
+        pad, heights = round(PAD * ui), [_height(entry, ui) for entry in entries]
+        width, height = bounds.size if self._docked else self.size(painter)
         room = min(height, bounds.height) - 2 * pad
         self._chosen = min(self._chosen, len(entries) - 1)
         first = min(self._first, len(entries) - 1)
-        if 0 <= self._chosen < first:
-            first = self._chosen
-        while first < self._chosen and sum(heights[first : self._chosen + 1]) > room:
-            first += 1
+        if self._sought:
+            first = max(0, min(first, self._chosen))
+            while first < self._chosen and sum(heights[first : self._chosen + 1]) > room:
+                first += 1
         while first > 0 and sum(heights[first - 1 :]) <= room:
             first -= 1
         self._first = first
         seen = first + 1
         while seen < len(entries) and sum(heights[first : seen + 1]) <= room:
             seen += 1
-        self.plate = pygame.Rect(self.corner, (width, sum(heights[first:seen]) + 2 * pad))
-        self.plate.width = min(width, bounds.width)
-        self.plate.clamp_ip(bounds)
+        able = [k for k in range(first, seen) if entries[k].act is not None]
+        self._chosen = min(able, key=lambda k: abs(k - self._chosen), default=self._chosen)
+        tall = bounds.height if self._docked else sum(heights[first:seen]) + 2 * pad
+        self.plate = pygame.Rect(self.corner, (min(width, bounds.width), tall)).clamp(bounds)
         top, self._places = self.plate.top + pad, []
         for k in range(first, seen):
             place = pygame.Rect(self.plate.left + pad, top, self.plate.width - 2 * pad, heights[k])
             self._places.append((k, entries[k], place))
             top += heights[k]
 
-    @staticmethod
     def _draw_entry(
-        surface: pygame.Surface, entry: Entry, place: pygame.Rect, painter: Painter, boxes: int
+        self,
+        surface: pygame.Surface,
+        entry: Entry,
+        place: pygame.Rect,
+        painter: Painter,
+        ui: float,
+        before: int,
     ) -> None:
-        ui, fonts, theme = painter.ui, painter.fonts, painter.theme
-        pad, side, title = round(PAD * ui), round(BOX * ui), entry.act is None
-        left, middle = place.left + pad, place.top + round(ROW / 2 * ui)
+        fonts, theme, size = painter.fonts, painter.theme, SIZE * ui
+        pad, side = round(PAD * ui), round(BOX * ui)
+        left, right, middle = place.left + pad, place.right - pad, place.top + round(ROW / 2 * ui)
         box = pygame.Rect(left, middle - side // 2, side, side)
         if entry.on is not None:
             fill, edge = (theme.selected,) * 2 if entry.on else (theme.plate, theme.muted)
@@ -265,18 +315,28 @@ class Menu:
             tick = [(box.left + x * side, box.top + y * side) for x, y in TICK]
             thick = max(2, round(2 * ui))
             pygame.draw.lines(surface, theme.plate, closed=False, points=tick, width=thick)
+        for way, sign in SIGNS if entry.step is not None else ():
+            key = pygame.Rect(0, 0, place.height, place.height)
+            key.midright = place.right + round((way - 1) / 2 * 0.8 * key.width), middle
+            at = painter.write(surface, sign, size, theme.muted, center=key.center)
+            self._signs.append((entry, way, at.inflate(pad, pad)))
+            right = at.left - pad
+        head = entry.act is None and not entry.tone
+        title, value = (theme.muted, theme.ink) if self._docked else (theme.ink, theme.muted)
+        if head or entry.tone == "warning":
+            title = theme.waiting.ink if entry.tone else value
+        room = right - left - before
+        most = max(0.6 * room, room - pad - fonts.width(entry.title, size, bold=head))
+        words = fonts.shorten(f"{entry.value}{entry.key}", size, most)
+        end = painter.write(surface, words, size, value, midright=(right, middle)).left
         for k, color in enumerate(entry.colors):
             dot = box.move(round(k * (BOX + 4) * ui), 0)
             painter.panel(surface, dot, theme.shade(color), side / 2)
-        color = theme.muted if title else theme.ink
-        size, right = SIZE * ui, (place.right - pad, middle)
-        end = f"{entry.value}{entry.key}"
-        room = painter.write(surface, end, size, theme.muted, midright=right).left - left - boxes
-        text = fonts.shorten(entry.title, size, room, bold=title)
-        painter.write(surface, text, size, color, bold=title, midleft=(left + boxes, middle))
+        text = fonts.shorten(entry.title, size, end - left - before - pad * bool(words), bold=head)
+        painter.write(surface, text, size, title, bold=head, midleft=(left + before, middle))
         if entry.more:
-            more = fonts.shorten(entry.more, SMALL * ui, place.right - pad - left - boxes)
-            below = (left + boxes, middle + MORE * ui)
+            more = fonts.shorten(entry.more, SMALL * ui, place.right - pad - left - before)
+            below = (left + before, middle + MORE * ui)
             painter.write(surface, more, SMALL * ui, theme.muted, midleft=below)
 
 

@@ -161,10 +161,10 @@ def draw_quartiles(
     draw_curve(surface, painter, [limits.pixels(area, times[seen], median)], ink, 2.0)
 
 
-def as_number(value: float, unit: str = "") -> str:
-    """Return a number with three digits and its unit, for example ``0.200 m/s``."""
+def as_number(value: float) -> str:
+    """Return a number with three digits, for example ``0.200``."""
     if not np.isfinite(value):
         return "nothing"
     size = abs(value)
     text = f"{value:.3g}" if size >= 1000 or 0 < size < 1e-3 else f"{value:#.3g}".rstrip(".")
-    return f"{text} {unit}".strip().replace("-", "\N{MINUS SIGN}")
+    return text.replace("-", "\N{MINUS SIGN}")

@@ -108,11 +108,13 @@ class SpeedSlider(Slider):
         *,
         pointer: tuple[int, int] | None = None,
         held: bool = False,
+        costs: str = "",
     ) -> None:
         """Draw the slider on a part of a surface.
 
         speed: 0 in manual mode, inf for "max". reached: the recent factor of real time, if known.
-        pointer: where the mouse is. held: whether the mouse drags the handle.
+        pointer: where the mouse is. held: whether the mouse drags the handle. costs: what takes the
+        time, which the words beside the slider say under the pointer.
         """
         ui, theme = painter.ui, painter.theme
         surface.fill(theme.bar, rect)
@@ -131,6 +133,10 @@ class SpeedSlider(Slider):
             wanted = self.speed_at(pointer[0])
             place = round(self.x_of(wanted or 1.0)), rect.top - round(4 * ui)
             draw_tooltip(surface, painter, times(wanted or 1.0), midbottom=place)
+        elif costs and pointer is not None and rect.collidepoint(pointer):
+            draw_tooltip(
+                surface, painter, costs, bottomright=(rect.right, rect.top - round(4 * ui))
+            )
 
     def _arrange(self, rect: pygame.Rect, ui: float) -> None:
         pad = round(16 * ui)

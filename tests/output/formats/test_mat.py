@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 
+import numpy as np
 import pytest
 from scipy.io import loadmat
 
@@ -39,6 +40,11 @@ def test_the_struct_has_the_names_of_the_paper(tmp_path):
     assert out["Robots"] == 3
     assert out["Robot"]["Diameter"].tolist() == [0.3, 0.3, 0.3]
     assert out["Non_holonomic"].tolist() == [1, 0, 1]
+    obstacles = everything().scenario.obstacles
+    vertices = [each["Vertex"].tolist() for each in np.atleast_1d(out["Map"]["Obstacle"])]
+    assert vertices == [[[*point] for point in outline] for outline in obstacles]
+    assert vertices
+    assert len(out["Animation"]["Colors"]) == 3
     assert out["Animation"]["Title"].rstrip() == "Grüße 🤖"
     assert out["Seed"] == 2**63 - 1
 

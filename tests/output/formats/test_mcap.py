@@ -375,9 +375,9 @@ def test_a_log_follows_the_branches_of_a_timeline(tmp_path) -> None:
     assert len(read) == 30
     same_up_to(read, timeline.record)
     assert read.interventions == timeline.record.interventions
-    timeline.other_branch()
+    timeline.show(timeline.others[0])
     assert len(mars2d.load(path)) == 50
-    timeline.other_branch()
+    timeline.show(timeline.others[0])
     log.close(timeline.record)
     assert mars2d.load(path).digest == timeline.record.digest
     assert mars2d.load(path).over_message == "The window was closed"

@@ -25,6 +25,8 @@ def control(robot):
             region = dominance(where[free[j]], where[team[i]], 1.0, CAPTURE)
             away = ((region - FLAG) ** 2).sum(axis=0)
             goal[team[i], j] = region[:, away.argmin()]
-            cost[i, j] = dist(where[team[i]], where[free[j]]) - 100 * (away.min() > REACH**2)
+            ways = [dist(where[name], FLAG[:, 0]) for name in (team[i], free[j])]
+            stops = away.min() > REACH**2 and ways[1] > ways[0] - CAPTURE
+            cost[i, j] = dist(where[team[i]], where[free[j]]) - 100 * stops
         pairs = {team[i]: j for i, j in zip(*linear_sum_assignment(cost), strict=True)}
         yield 100 * (goal.get((robot.name, pairs.get(robot.name, 0)), FLAG[:, 0]) - robot.position)

@@ -9,7 +9,6 @@ import json
 import re
 import zlib
 from collections.abc import Iterable, Mapping
-from dataclasses import fields
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
@@ -135,13 +134,12 @@ def colors() -> str:
 
 def _variables(theme: Theme) -> str:
     values = {f"mark-{kind}": mark.color(theme) for kind, mark in MARKS.items()}
-    for field in fields(theme):
-        name, value = field.name.replace("_", "-"), getattr(theme, field.name)
+    for name, value in theme._asdict().items():
         if isinstance(value, Tone):
             values |= {name: value.ink, f"{name}-pale": value.pale}
         elif isinstance(value, str):
             values[name] = value
-    return " ".join(f"--{name}: {value};" for name, value in values.items())
+    return " ".join(f"--{name.replace('_', '-')}: {value};" for name, value in values.items())
 
 
 def _hash(text: str) -> str:

@@ -18,8 +18,8 @@ from mars2d.output.layers.forces import (
     FAINTEST,
     MAX_CONTACTS,
     SLIPPING,
-    as_read,
     force_scale,
+    in_newtons,
 )
 from mars2d.output.layers.legend import Legend, legends
 from mars2d.output.layers.rings import RING, has_ring
@@ -437,9 +437,6 @@ def _gaps(ways: Float, poses: Float, kept: Int, size: float) -> NDArray[np.bool_
 
 # -- the numbers in the panel ---------------------------------------------------------------------
 
-NEWTON = 0.01
-"""The step of forces, newtons: the last digit with which they are read."""
-
 MAX_NUMBERS = 8
 """The most numbers of a reading that is shown as text."""
 
@@ -465,8 +462,8 @@ def pack_contacts(record: Rows, kept: Int, shown: Sequence[int]) -> Columns:
     columns.add("contacts:row", at, order=1)
     columns.add("contacts:a", contacts["a"].astype(int), order=1)
     columns.add("contacts:b", contacts["b"].astype(int), order=1)
-    said = np.array([as_read(each) for each in size.tolist()])
-    columns.add("contacts:force", rounded(said, NEWTON), order=1, step=NEWTON)
+    words, said = np.unique([in_newtons(each) for each in size.tolist()], return_inverse=True)
+    columns.add("contacts:force", said, words=words.tolist())
     return columns
 
 

@@ -76,7 +76,7 @@ class Panel {
     const mine = this.picture.contacts().filter(({ a, b }) => a === body || b === body);
     if (!mine.length) return ["none"];
     const name = (other) => (other < 0 ? `obstacle ${-1 - other}` : this.picture.bodies[other].name);
-    return mine.map(({ a, b, size }) => `${name(a === body ? b : a)} ${inNewtons(size)}`);
+    return mine.map(({ a, b, force }) => `${name(a === body ? b : a)} ${force}`);
   }
 
   // Go to the other side where it hides the body, unless it would do so there as well.

@@ -96,8 +96,9 @@ class Picture {
     const shown = this.columns["contacts:shown"].values, wanted = shown[countUpTo(shown, this.row) - 1];
     const end = countUpTo(row.values, wanted), begin = countUpTo(row.values, wanted - 1);
     const of = (name, k) => this.columns[`contacts:${name}`].at(k);
+    const { words } = this.columns["contacts:force"].entry;
     return Array.from({ length: end - begin }, (_, i) => (
-      { a: of("a", begin + i), b: of("b", begin + i), size: of("force", begin + i) }));
+      { a: of("a", begin + i), b: of("b", begin + i), force: words[of("force", begin + i)] }));
   }
 
   effort(i) {
@@ -391,9 +392,4 @@ class Picture {
       context.stroke();
     }
   }
-}
-
-function inNewtons(force) {
-  if (force >= 1000) return `${Number((force / 1000).toPrecision(3))} kN`;
-  return `${force.toFixed(force < 1 ? 2 : force < 10 ? 1 : 0)} N`;
 }

@@ -1,6 +1,6 @@
 """Make what belongs to an example: its pictures on the home, its film, and its golden path.
 
-    python docs/make_example.py [NAME ...]
+    python docs/make/example.py [NAME ...]
 
 An example has a film, docs/pictures/NAME.gif, if a page of docs/ shows it. The golden path is what
 its runs are compared with, tests/house/golden. Without a name, all are made, and the picture of the
@@ -28,7 +28,7 @@ from mars2d.window.home import Home
 from mars2d.window.screen.memory import Memory
 from mars2d.world.record import Record
 
-DOCS = Path(__file__).parent
+DOCS = Path(__file__).parents[1]
 sys.path.insert(0, str(DOCS.parent))
 from tests.house.goldens import golden  # noqa: E402 - of the checkout
 

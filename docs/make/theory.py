@@ -1,6 +1,6 @@
 """Write docs/theory.md: what the physics predicts, and what is measured, in one table.
 
-python docs/make_theory.py
+python docs/make/theory.py
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ HEAD = """\
 
 This page compares textbook predictions with the simulator's measurements. The first table has
 single facts of the physics, and the second the checks of the examples. The page is written by
-`docs/make_theory.py`, which runs everything again. So do the tests, which fail if a number leaves
+`docs/make/theory.py`, which runs everything again. So do the tests, which fail if a number leaves
 its tolerance. Tolerances are absolute, in the unit given. One of more than a tenth of the predicted
 number is marked as rough: a rule of thumb, or the scatter of a few samples. If 0 is predicted, the
 measured value is a rounding error, which differs between processors.
@@ -443,4 +443,4 @@ def measured(p: Prediction) -> str:
 
 
 if __name__ == "__main__":
-    Path(__file__).with_name("theory.md").write_text(document(), encoding="utf-8")
+    (Path(__file__).parents[1] / "theory.md").write_text(document(), encoding="utf-8")

@@ -1,6 +1,6 @@
 """Draw the pictures of the sensors' pages, and write the tables of their fields.
 
-python docs/make_sensors.py
+python docs/make/sensors.py
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-import make_fields
+import fields
 import numpy as np
 from PIL import Image
 
@@ -40,7 +40,7 @@ from mars2d.sensors import (
     SonarRing,
 )
 
-DOCS = Path(__file__).parent
+DOCS = Path(__file__).parents[1]
 SIZE = (760, 560)
 COLORS = 128
 
@@ -173,7 +173,7 @@ def _in_a_room(kind: type[Sensor]) -> World:
 
 SCENES: dict[type[Sensor], Callable[[], World]] = {
     kind: globals().get(f"_{snake_case(kind.__name__)}", partial(_in_a_room, kind))
-    for kind in make_fields.shipped("sensors")
+    for kind in fields.shipped("sensors")
 }
 """For each sensor a world that shows what it does."""
 
@@ -187,8 +187,8 @@ def page(kind: type[Sensor]) -> Path:
 
 def with_table(text: str, kind: type[Sensor]) -> str:
     """Return a page's text with the table of the sensor's own fields between its marks."""
-    rows = "".join(make_fields.row(kind, field) for field in make_fields.fields_of(kind))
-    table = make_fields.TABLE_HEAD + rows if rows else "It has the fields of all sensors alone.\n"
+    rows = "".join(fields.row(kind, field) for field in fields.fields_of(kind))
+    table = fields.TABLE_HEAD + rows if rows else "It has the fields of all sensors alone.\n"
     made = f"<!-- fields -->\n\n{table}\n<!-- /fields -->"
     new, count = re.subn(r"<!-- fields -->.*<!-- /fields -->", lambda _: made, text, flags=re.S)
     assert count == 1, f"{page(kind).name} has no marks for the table of fields"

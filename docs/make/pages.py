@@ -1,7 +1,11 @@
-"""What mkdocs does besides: the gallery, the reference, and links to files beside docs/.
+"""Write the pages of the documentation site: those of docs/, the gallery, and the reference.
+
+    python docs/make/pages.py
+    mkdocs build --strict
 
 The gallery has all examples; the reference has a page for each public name, with its fields and
-the places that use it. Both follow from the package, so nothing is kept by hand.
+the places that use it. Both follow from the package, so nothing is kept by hand. The pages are
+written to build/pages, so that any generator can make the site of them.
 """
 
 from __future__ import annotations
@@ -9,6 +13,7 @@ from __future__ import annotations
 import importlib
 import importlib.util
 import re
+import shutil
 import tomllib
 from collections.abc import Iterator
 from functools import cache
@@ -17,11 +22,6 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from mkdocs.config.defaults import MkDocsConfig
-from mkdocs.structure.files import File, Files
-from mkdocs.structure.pages import Page
-
-import mars2d
 from mars2d.core.description import Description
 from mars2d.scenario.examples import (
     courses,
@@ -32,8 +32,9 @@ from mars2d.scenario.examples import (
 )
 from mars2d.scenario.registry import summary
 
-DOCS = Path(__file__).parent
+DOCS = Path(__file__).parents[1]
 ROOT = DOCS.parent
+PAGES = ROOT / "build" / "pages"
 
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
 REPOSITORY = PROJECT["urls"]["Homepage"]
@@ -45,22 +46,28 @@ MODULES = (
 """The modules whose names are public, in the order in which people meet them."""
 
 
-def on_files(files: Files, config: MkDocsConfig) -> Files:
-    """Add the pages that follow from the package, and the pictures of the gallery."""
-    for picture in sorted((ROOT / "examples").rglob("*.png")):
-        at = str(picture.relative_to(ROOT))
-        files.append(File.generated(config, at, abs_src_path=str(picture)))
-    files.append(File.generated(config, "gallery.md", content=gallery()))
-    files.append(File.generated(config, "reference/index.md", content=contents()))
-    for module, name in public_names():
-        content = reference(module, name)
-        files.append(File.generated(config, page_of(module, name), content=content))
-    return files
+def main() -> None:
+    """Write all pages, their pictures, and the page on which experiments run in a browser."""
+    shutil.rmtree(PAGES, ignore_errors=True)
+    beside = shutil.ignore_patterns("make", "__pycache__", "try")
+    shutil.copytree(DOCS, PAGES, ignore=beside)
+    for picture in (ROOT / "examples").rglob("*.png"):
+        there = PAGES / picture.relative_to(ROOT)
+        there.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(picture, there)
+    made = {"gallery.md": gallery(), "reference/index.md": contents()}
+    made |= {page_of(module, name): reference(module, name) for module, name in public_names()}
+    made |= {str(page.relative_to(DOCS)): page.read_text("utf-8") for page in DOCS.rglob("*.md")}
+    for name, text in made.items():
+        page = PAGES / name
+        page.parent.mkdir(parents=True, exist_ok=True)
+        page.write_text(led_on(text, Path(name)), "utf-8")
+    neighbour("try_it").main([str(PAGES / "try")])
 
 
-def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:
+def led_on(markdown: str, name: Path) -> str:
     """Lead links to files beside docs/ to the repository, and thumbnails to those of the site."""
-    folder = (DOCS / page.file.src_uri).parent
+    folder = (DOCS / name).parent
 
     def led(match: re.Match[str]) -> str:
         path, _, anchor = match[2].partition("#")
@@ -71,7 +78,7 @@ def on_page_markdown(markdown: str, page: Page, **_: Any) -> str:
         target = f"{REPOSITORY}/{kind}/main/{goal.relative_to(ROOT)}"
         return f"{match[1]}{target}{'#' if anchor else ''}{anchor})"
 
-    up = "../" * page.url.count("/")
+    up = "../" * (len(name.parts) - (name.stem == "index"))
     markdown = re.sub(r'src="[./]*(examples/[^"]+)"', rf'src="{up}\1"', markdown)
     return re.sub(r"(\]\()([^)\s]+)\)", led, markdown)
 
@@ -165,7 +172,7 @@ def reference(module: str, name: str) -> str:
     text = f"# {name}\n\n```python\nfrom {module} import {name}\n```\n\n"
     text += f"::: {module}.{name}\n"
     if isinstance(held, type) and issubclass(held, Description):
-        made = neighbour("make_fields")
+        made = neighbour("fields")
         rows = "".join(made.row(held, field) for field in made.fields_of(held))
         base = made.base_of(held)
         if base is not None:
@@ -200,8 +207,8 @@ def documents() -> tuple[tuple[Path, str], ...]:
 
 @cache
 def neighbour(name: str) -> ModuleType:
-    """Return a script of docs/ as a module."""
-    spec = importlib.util.spec_from_file_location(name, DOCS / f"{name}.py")
+    """Return a script beside this one as a module."""
+    spec = importlib.util.spec_from_file_location(name, Path(__file__).with_name(f"{name}.py"))
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
@@ -209,13 +216,5 @@ def neighbour(name: str) -> ModuleType:
     return module
 
 
-def on_post_build(config: MkDocsConfig) -> None:
-    """Add the page on which experiments run in a browser."""
-    neighbour("make_try").main([str(Path(config.site_dir) / "try")])
-
-
-def on_config(config: MkDocsConfig) -> MkDocsConfig:
-    """State the version."""
-    link = f'<a href="{REPOSITORY}">source</a>'
-    config.copyright = f"MARS2D {mars2d.__version__}, MIT licence, {link}"
-    return config
+if __name__ == "__main__":
+    main()

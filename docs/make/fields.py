@@ -1,6 +1,6 @@
 """Write docs/fields.md: every field of the descriptions, from what the classes say of themselves.
 
-python docs/make_fields.py
+python docs/make/fields.py
 """
 
 from __future__ import annotations
@@ -97,7 +97,7 @@ by a third and more. `mars2d/core/materials.py` names the sources.
 """
 
 TAIL = """
-This page is written by `docs/make_fields.py`.
+This page is written by `docs/make/fields.py`.
 """
 
 
@@ -198,4 +198,4 @@ def materials() -> str:
 
 
 if __name__ == "__main__":
-    Path(__file__).with_name("fields.md").write_text(document(), encoding="utf-8")
+    (Path(__file__).parents[1] / "fields.md").write_text(document(), encoding="utf-8")

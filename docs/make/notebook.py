@@ -1,6 +1,6 @@
 """Write docs/notebook.ipynb: a laboratory in ten cells, executed.
 
-python docs/make_notebook.py
+python docs/make/notebook.py
 """
 
 from __future__ import annotations
@@ -11,13 +11,13 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-TARGET = Path(__file__).with_name("notebook.ipynb")
+TARGET = Path(__file__).parents[1] / "notebook.ipynb"
 
 INTRODUCTION = """\
 # A laboratory in a notebook
 
 Three robots chase each other: each steers towards the next one. You change one number, the gain,
-and see what it does. This notebook is written and executed by `docs/make_notebook.py`; run its
+and see what it does. This notebook is written and executed by `docs/make/notebook.py`; run its
 cells in order. What each of them shows is explained in [Notebooks](notebook.md)."""
 
 CELLS = [

@@ -1,6 +1,6 @@
 """Draw by how much theory misses in each pursuit game with real bodies, docs/pictures/*_bodies.png.
 
-python docs/make_pursuit.py [NAME ...]
+python docs/make/pursuit.py [NAME ...]
 
 Each game is run from the same seeds with contact, stop and ideal, and with drives that are weaker
 and weaker. A dot is a run: what was measured, less what the formula says of its start. The bars are
@@ -23,7 +23,7 @@ import mars2d
 from mars2d import Record
 from mars2d.scenario.experiment import open_experiment, open_module
 
-PICTURES = Path(__file__).parent / "pictures"
+PICTURES = Path(__file__).parents[1] / "pictures"
 SEEDS = 10
 COLORS = {"contact": "#d55e00", "stop": "#0072b2", "ideal": "#707070"}
 
@@ -66,13 +66,13 @@ STUDIES = {
         "capture, later than predicted [s]",
     ),
     "homicidal_chauffeur": Study(
-        {"stop_time": 30},
+        {"stop_time": 30, "reach": 0.2},
         {"any force": {}, "1 m/s$^2$": {"accel": 1.0}, "0.6 m/s$^2$": {"accel": 0.6}},
         passing,
         "first pass, farther than predicted [m]",
     ),
     "two_cars": Study(
-        {"stop_time": 30},
+        {"stop_time": 30, "radius": 0.5},
         {"any force": {}, "1.5 m/s$^2$": {"accel": 1.5}, "0.7 m/s$^2$": {"accel": 0.7}},
         passing,
         "first pass, farther than predicted [m]",

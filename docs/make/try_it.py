@@ -1,6 +1,6 @@
 """Assemble the page "Try it", on which experiments run in a browser.
 
-    python docs/make_try.py OUT [--pyodide FOLDER]
+    python docs/make/try_it.py OUT [--pyodide FOLDER]
 
 OUT gets the page and a wheel of MARS2D. Serve it with any web server, such as
 `python -m http.server -d OUT`. With a folder of Pyodide and its packages the page needs no network;
@@ -17,7 +17,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-DOCS = Path(__file__).parent
+DOCS = Path(__file__).parents[1]
 CDN = "https://cdn.jsdelivr.net/pyodide/v314.0.3/full/"
 
 

@@ -1,0 +1,27 @@
+"""The lesson of an experiment: the parts of the docstring of its file, such as its question."""
+
+from __future__ import annotations
+
+import ast
+import re
+from pathlib import Path
+
+HEADINGS = re.compile(
+    r"(?:^|(?<=[.?!)] ))(Question|Setting|Law(?: \([^)]*\))?|Prediction|Measured|Try|Play|Source): "
+)
+"""The words with which parts of a docstring begin."""
+
+
+def lesson_of(path: Path | None) -> list[tuple[str, str]]:
+    """Return the parts of the docstring of a Python file: headings and texts.
+
+    >>> HEADINGS.split("Question: how far? Source: a book.")
+    ['', 'Question', 'how far? ', 'Source', 'a book.']
+    """
+    if path is None or path.suffix != ".py":
+        return []
+    text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+    first, *rest = HEADINGS.split(" ".join(text.split()))
+    named = zip(rest[::2], rest[1::2], strict=True)
+    parts = [(heading, text.strip()) for heading, text in (("", first), *named)]
+    return [(heading, text[:1].upper() + text[1:]) for heading, text in parts]

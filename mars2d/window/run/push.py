@@ -1,0 +1,121 @@
+"""A measured push: a constant force on a body for a time, aimed with the mouse or typed."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable
+from math import atan2, cos, degrees, dist, hypot, radians, sin
+
+import pygame
+
+from mars2d.bodies.rigid import Triple
+from mars2d.core.errors import InputError, shown
+from mars2d.core.plane import Point
+from mars2d.core.scene import Scene
+from mars2d.output.layers.forces import FORCE, in_newtons
+from mars2d.output.raster.camera import Camera
+from mars2d.record.frame import Frame
+from mars2d.record.interventions import Push
+from mars2d.scenario.scenario import Scenario
+from mars2d.window.run.drags import (
+    GOOD,
+    HALO,
+    LABEL,
+    NOTCH,
+    Act,
+    draw_ring,
+    pull_of,
+    within,
+    world_point,
+)
+
+SECONDS = 0.5
+"""How long a push lasts that is aimed with the mouse."""
+REACH = 0.25
+"""How far one pulls for the force of a strong pull, in parts of the workspace."""
+NUMBER = r"(\d*\.?\d+)"
+TYPED = re.compile(rf"{NUMBER} ?N?(?: ?for {NUMBER} ?s?)?(?: ?at (-?){NUMBER} ?(?:°|deg)?)?")
+EXPECTED = "such as 3 N for 0.5 s at 90°"
+
+
+def stiffness_of(scenario: Scenario, body: int) -> float:
+    """Return the newtons for a metre of arrow."""
+    xmin, xmax, ymin, ymax = scenario.bounds
+    return pull_of(scenario, body)[0] / (REACH * max(xmax - xmin, ymax - ymin))
+
+
+class Aim:
+    """Aims a push from the point where a body was gripped to the pointer; the end lets it act.
+
+    keeps: a drag that is cancelled does nothing.
+    """
+
+    keeps = False
+
+    def __init__(
+        self, do: Callable[[Act], bool], scenario: Scenario, body: int, grip: Point
+    ) -> None:
+        self.body, self._do = body, do
+        self.grip = within(scenario.bodies[body], grip)
+        self.newtons = self.angle = 0.0
+        self._stiffness = stiffness_of(scenario, body)
+
+    def move(self, frame: Frame, point: Point, mods: int) -> None:
+        """Aim at a point; with Ctrl in steps of 15 degrees."""
+        start = world_point(frame.body_pose(self.body), self.grip)
+        self.newtons = float(f"{self._stiffness * dist(start, point):.2g}")
+        self.angle = atan2(point[1] - start[1], point[0] - start[0])
+        if mods & pygame.KMOD_CTRL:
+            self.angle = NOTCH * round(self.angle / NOTCH)
+
+    def end(self) -> None:
+        """Push."""
+        if self.newtons:
+            self._do(lambda world: world.operator.push(self.body, self._force, SECONDS, self.grip))
+
+    @property
+    def _force(self) -> Point:
+        return self.newtons * cos(self.angle), self.newtons * sin(self.angle)
+
+    def pose(self, frame: Frame) -> Triple | None:
+        """Return None: the body is shown where it is."""
+
+    def draw(self, scene: Scene, frame: Frame, camera: Camera) -> None:
+        """Draw the force that it would be."""
+        draw_ring(scene, frame, self.body, GOOD, 2.0)
+        if self.newtons:
+            draw_pushes(scene, frame, [Push(0, self.body, self.grip, self._force, SECONDS)], camera)
+
+
+def draw_pushes(scene: Scene, frame: Frame, pushes: Iterable[Push], camera: Camera) -> None:
+    """Draw pushes as arrows from where they act, each with its newtons and seconds."""
+    for push in pushes:
+        (x, y), newtons = push.force, hypot(*push.force)
+        start = world_point(frame.body_pose(push.body), push.grip)
+        length = stiffness_of(frame.scenario, push.body)
+        tip = start[0] + x / length, start[1] + y / length
+        scene.arrow(start, tip, fill=FORCE, width=3.0, stroke=HALO)
+        place = tip[0], tip[1] + 9 / camera.scale
+        text = f"{in_newtons(newtons)} for {push.duration:g} s"
+        scene.text(place, text, color=FORCE, size=LABEL, anchor="above", halo=HALO)
+
+
+def pushed(text: str, heading: float) -> tuple[Point, float]:
+    """Return the force [N] and the duration [s] that a text says; heading: where it says none.
+
+    >>> pushed("3 N for 2 s", heading=0.0)
+    ((3.0, 0.0), 2.0)
+    """
+    found = TYPED.fullmatch(text.strip())
+    if found is None:
+        raise InputError(f"{shown(text)}: expected {EXPECTED}")
+    newtons, seconds, sign, angle = found.groups()
+    way = heading if angle is None else radians(float(sign + angle))
+    force = float(newtons) * cos(way), float(newtons) * sin(way)
+    return force, float(seconds or SECONDS)
+
+
+def suggested(frame: Frame, body: int) -> str:
+    """Return a push of a body as it is typed: as strong as a strong pull, ahead."""
+    force = pull_of(frame.scenario, body)[0]
+    return f"{force:.2g} N for {SECONDS:g} s at {round(degrees(frame.body_pose(body)[2])):d}°"
