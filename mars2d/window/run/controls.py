@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from math import dist, inf
 
 import pygame
@@ -18,12 +18,11 @@ from mars2d.window.screen.source import Playback, Source
 from mars2d.window.screen.viewpoint import wheel_notches
 from mars2d.window.widgets.slider import SpeedSlider
 from mars2d.world.timeline import Timeline
-from mars2d.world.world import World
 
 DOUBLE, NEAR = 0.35, 6
 """The longest time between two clicks that are one double click, seconds; how far apart, pixels."""
 MARK_INTERVAL = 0.25
-"""How often the log of contacts is read for collisions, seconds."""
+"""How often a run is read for collisions, seconds."""
 
 
 class Controls:
@@ -35,8 +34,9 @@ class Controls:
     def __init__(self, player: Player, marked: Source) -> None:
         """Start with nothing drawn; marked: the source whose events are marked."""
         self._player = player
-        known = marks_of(marked.record) if isinstance(marked, Playback) else {}  # they stay
-        self._marks = Marks(marked).rows if isinstance(marked, Timeline) else lambda: known
+        self._marked = marked
+        self._marks = marks_of(marked.record) if isinstance(marked, Playback) else {}
+        self._read: tuple[object, ...] = ()  # what the marks of a run were read of
         self.time_bar, self.slider = TimeBar(), SpeedSlider(SPEEDS)
         self._pressed: tuple[float, Pixel, int, bool] = -inf, (0, 0), 0, False
         self.handles: list[Handle] = [
@@ -79,12 +79,17 @@ class Controls:
         """Return the state that the time bar shows."""
         source = self._player.source
         live = not isinstance(source, Playback)
+        if isinstance(self._marked, Timeline):
+            world, now = self._marked.world, time.monotonic() // MARK_INTERVAL
+            of = world, world.over, len(world.operator.log), len(self._marked.branches), now
+            if of != self._read:
+                self._read, self._marks = of, marks_in(self._marked)
         return TimeState(
             row=source.row,
             rows=source.newest,
             last=source.scenario.last_iteration if live else source.newest,
             sampling_time=source.scenario.sampling_time,
-            marks=self._marks(),
+            marks=self._marks,
             live=live,
         )
 
