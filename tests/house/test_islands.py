@@ -78,6 +78,12 @@ def test_the_library_is_the_same_in_python_and_in_c():
     assert set(build.in_c()) <= set(defined(text_of("chipmunk.py")))
 
 
+def test_numbers_with_names_are_divided_in_c_as_in_python():
+    found = re.findall(r"^cdef (?:int|double) [A-Z_]+ = (.*)$", build.joined(), flags=re.M)
+    assert len(found) > 40
+    assert [each for each in found if re.search(r"\d/|/ *\d+(?![\d.])", each)] == []
+
+
 @each_case("name", build.MODULES)
 def test_a_module_imports_only_what_is_there_when_they_are_joined(name):
     """Of those before it in the list, by their own names; of C's mathematics; of typing."""

@@ -23,8 +23,8 @@ MODULES = (
 )  # fmt: skip
 """The modules, each after those that it imports."""
 
-CONSTANTS = r"^([A-Z_]+) = ([-\d./]+|[\d.]+e-?\d+|\d+ / \d+)(  #.*)?$"
-"""Lines that give a name to a number, which is one of C."""
+CONSTANTS = r"^([A-Z_]+) = (\d+|\d+\.\d+(?: / \d+\.\d+)?|\d+e-\d+)(?:  #.*)?$"
+"""Lines that give a name to a number, which is one of C. Whole numbers are divided in C as such."""
 
 PREFIXES = r"\b(?:chipmunk|library|settings)\.(\w+)"
 """Names of modules that are imported as such."""

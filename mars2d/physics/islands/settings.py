@@ -54,13 +54,13 @@ PUSH_ROOM = 0.85
 CLOSED = 1e-9
 """A gap that counts as touching, metres: bodies that are put side by side have one by rounding."""
 
-MEETING = 1 / 256
+MEETING = 1.0 / 256.0
 """How deep an accelerating body may be in another when they meet, in parts of the slop.
 
 It has gathered speed over this way too: as small a part of it as substeps allow.
 """
 
-IMPACT_DEPTH = 1 / 16
+IMPACT_DEPTH = 1.0 / 16.0
 """How deep bodies may be in each other when they hit and no drive pushes, in parts of the slop.
 
 What has turned about the other since they touched is hit along another normal than at the touch:
@@ -74,7 +74,7 @@ LOAD_GROWTH = 2.0
 LOAD_DECAY = 0.98
 """The factors by which that number changes in a substep that finds them so deep, and in another."""
 
-STRETCH = 1 / 15
+STRETCH = 1.0 / 15.0
 """How much longer a rope may be when it jerks, in parts of how deep bodies may enter.
 
 The solver draws it in again, and what it pulls at bounces by that much more than nothing.
