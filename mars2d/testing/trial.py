@@ -81,8 +81,7 @@ def small_world(
 
 def looker(hook: str, look: Callable[[World], None]) -> Addon:
     """Return an add-on with one hook, which calls a function of the world."""
-    methods = {hook: lambda _, world: look(world)}
-    kind: type[Addon] = type("Looker", (Addon,), methods)
+    kind: type[Addon] = type("Looker", (Addon,), {hook: lambda _, world: look(world)})
     return kind(name="trial_looker")
 
 

@@ -386,7 +386,7 @@ def test_options_of_props_and_joints_pass_the_same_gate():
         ("herding", {"flock": None}, "scenario(flock) = None: expected a number"),
         ("coverage_square", {"holonomic": "false"}, "scenario(holonomic) = 'false': expected True"),
         ("cyclic_pursuit", {"n": 2.5}, "cyclic_pursuit.py, line 34, with n = 2.5: TypeError"),
-        ("pursuit_voronoi", {"ratio": -1}, "with ratio = -1: Holonomic.max_linear_speed = -0.2"),
+        ("pursuit_voronoi", {"ratio": -1}, "with ratio = -1: Unicycle.max_linear_speed = -0.2"),
     ],
 )
 def test_what_a_scenario_function_cannot_use_is_named(name, option, message):

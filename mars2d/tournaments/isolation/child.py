@@ -160,10 +160,9 @@ def _shut_in(briefing: Briefing) -> None:
 def _fault(kind: str, error: BaseException, most: int) -> dict[str, Any]:
     """Return what is told of an exception from loading or calling the law; most: its output."""
     place = users_line(traceback.extract_tb(error.__traceback__))
-    text = f"raised {described(error)}"
+    text, causes = f"raised {described(error)}", (error, error.__cause__)
     if isinstance(error, Mars2dError):
         place, text = error.where or place, str(error.args[0])
-    causes = (error, error.__cause__)
     if jail.is_protected() and any(isinstance(each, PermissionError) for each in causes):
         text += "; this is refused to isolated laws, which read what is beside them and --reads"
     if any(isinstance(each, MemoryError) for each in causes):
