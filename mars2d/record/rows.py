@@ -187,12 +187,17 @@ class Rows:
             readings=readings,
             over_message=self.over_message if last else "",
             prop_pose=self.prop_pose[row],
-            contacts=self._contacts_before(row),
+            contacts=self.contacts[slice(*np.searchsorted(self.contact_rows, [row, row + 1]))],
             effort=self.effort[row],
             prop_path=self.prop_pose[:row],
             effort_path=self.effort[:row],
             contact_log=lambda: self.contacts[: np.searchsorted(self.contact_rows, row, "right")],
-            messages=self._messages_before(row),
+            messages=in_flight(
+                self.messages,
+                float(self.time[row]),
+                self.scenario.sampling_time,
+                self._longest_flight,
+            ),
             command_path=self.command[:row],
             message_log=lambda: (self.messages, self.contents),
             reading_path=lambda name, robot: self._readings_before(row, name, robot),
@@ -229,16 +234,6 @@ class Rows:
     def pair_forces(self) -> NDArray[np.void]:
         """The mean force of each pair in each control step in which it touched, dtype FORCE."""
         return pair_forces(self.contacts, self.contact_rows, self.scenario.sampling_time)
-
-    def _contacts_before(self, row: int) -> NDArray[np.void]:
-        """Return the contacts of the control step that led to a row."""
-        ends = np.searchsorted(self.contact_rows, [row, row + 1])
-        return self.contacts[ends[0] : ends[1]]
-
-    def _messages_before(self, row: int) -> NDArray[np.void]:
-        """Return the messages that were under way in the control step that led to a row."""
-        time, dt = float(self.time[row]), self.scenario.sampling_time
-        return in_flight(self.messages, time, dt, self._longest_flight)
 
     def _readings_before(self, row: int, name: str, robot: int) -> NDArray[Any] | None:
         """Return a sensor's readings on a robot before a row, (row, ...); None if not recorded."""

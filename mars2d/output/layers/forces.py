@@ -61,7 +61,7 @@ def forces(frame: Frame) -> Scene:
     drawn.
     """
     scene = Scene()
-    _slip_marks(scene, frame)
+    slip_marks(scene, frame)
     scenario, contacts = frame.scenario, frame.contacts
     if not len(contacts):
         return scene
@@ -85,7 +85,7 @@ def forces(frame: Frame) -> Scene:
     return scene
 
 
-def _slip_marks(scene: Scene, frame: Frame) -> None:
+def slip_marks(scene: Scene, frame: Frame) -> None:
     """Draw a ring of the warning colour round each robot whose drive is at its bound."""
     slipping = np.flatnonzero(frame.effort >= SLIPPING).tolist()
     share = crowd_factor(frame.scenario) ** -0.5

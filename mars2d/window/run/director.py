@@ -59,12 +59,16 @@ class Director:
         finally:
             if back or not self._player.playing:  # otherwise time goes on from where it is
                 self._player.settle()
-        self._player.error = None
-        if len(timeline.branches) > branches:
-            self._notes.say("a new branch begins here; B shows what was run before")
+        self._begun(branches)
         if timeline.remark:
             self._notes.say(timeline.remark, "warning")
         return True
+
+    def _begun(self, branches: int) -> None:
+        """Forget an error after a change, and say that a branch begins; branches: before."""
+        self._player.error = None
+        if self.timeline is not None and len(self.timeline.branches) > branches:
+            self._notes.say("a new branch begins here; B shows what was run before")
 
     def step_within(self, way: int) -> None:
         """Show the next moment within a control step, or for -1 the one before."""
@@ -191,11 +195,9 @@ class Director:
             raise
         if reason and not restart:
             return reason
-        self._player.error = None
         if reason or back or not (self._player.playing and timeline.newest):
             self._player.settle()
-        if not reason and len(timeline.branches) > branches:
-            self._notes.say("a new branch begins here; B shows what was run before")
+        self._begun(branches)
         return reason
 
     def remove(self, body: int) -> None:
