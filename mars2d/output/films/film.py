@@ -42,15 +42,13 @@ def film_record(
     start: float | None = None,
     end: float | None = None,
     sensors: bool = True,
-    progress: Callable[[int], None] | None = None,
 ) -> Path:
     """Make a film of a record, .gif or .mp4, and return its path.
 
     speed: simulated seconds per second of the film; frames between sampling times are interpolated.
     size: pixels, 64 x 64 to 3840 x 2160, for .mp4 both even. fps: frames per second, at most 50 in
     a GIF. start, end: seconds, the part of the run that is shown, by default all. sensors: whether
-    they are drawn. progress: called with the number of frames written so far, of
-    `cut_of(...).count`. The file appears under its name when it is complete.
+    they are drawn. The file appears under its name when it is complete.
 
     Raises InputError for arguments that make no film and where it can't be written,
     MissingExtraError for .mp4 without PyAV, and without pygame.
@@ -59,9 +57,7 @@ def film_record(
 
     cut = cut_of(record, speed, fps, start, end)
     frames = shots(cut, record.scenario.sampling_time, len(record) - 1, record.frame)
-    save_film(
-        frames, path, fps=fps, size=size, sensors=sensors, status=f"{speed:.3g}x", progress=progress
-    )
+    save_film(frames, path, fps=fps, size=size, sensors=sensors, status=f"{speed:.3g}x")
     return Path(path)
 
 

@@ -68,17 +68,13 @@ def read(path: Path, largest: int) -> Rows:
         return record
 
 
-def _blocks(rows: int, width: int) -> Iterator[slice]:
-    """Yield slices that divide rows into blocks. width: the cells of a row."""
-    step = max(1, BLOCK_CELLS // max(1, width))
-    return (slice(start, min(start + step, rows)) for start in range(0, rows, step))
-
-
 def _lines(record: Rows, parts: Mapping[str, list[Part]]) -> Iterator[list[str]]:
     """Yield the lines of the table, each a list of cells."""
     columns = record.columns()
     names = [str(body.name) for body in record.scenario.bodies]
-    for rows in _blocks(len(record), len(names) * len(parts)):
+    step = max(1, BLOCK_CELLS // max(1, len(names) * len(parts)))
+    for start in range(0, len(record), step):
+        rows = slice(start, min(start + step, len(record)))
         cells = np.full((rows.stop - rows.start, len(names), 2 + len(parts)), "", dtype=object)
         cells[:, :, 0] = _texts(columns["time"][rows])[:, None]
         cells[:, :, 1] = names

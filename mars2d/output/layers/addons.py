@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mars2d.core.plane import rectangle
+from mars2d.core.plane import Outline, rectangle
 from mars2d.core.scene import Scene
 from mars2d.core.usercode import called
 from mars2d.record.frame import Frame
@@ -11,19 +11,12 @@ from mars2d.scenario.scenario import Scenario
 
 def floor(scenario: Scenario) -> Scene:
     """Return the add-ons' drawings on the floor of the workspace, beneath the grid."""
-    scene, area = Scene(), scenario.workspace or rectangle(*scenario.bounds)
-    for addon in scenario.addons:
-        with called(f"add-on {addon.key!r}", addon.paint):
-            addon.paint(scene, area)
-    return scene
+    return _drawn("paint", scenario, scenario.workspace or rectangle(*scenario.bounds))
 
 
 def addons(frame: Frame) -> Scene:
     """Return the add-ons' drawings, from their fields, the time and their live state."""
-    scene = Scene()
-    for addon in frame.scenario.addons:
-        with called(f"add-on {addon.key!r}", addon.draw):
-            addon.draw(scene, frame)
+    scene = _drawn("draw", frame.scenario, frame)
     if frame.draw_addons is not None:
         frame.draw_addons(scene)
     return scene
@@ -31,10 +24,16 @@ def addons(frame: Frame) -> Scene:
 
 def theory(frame: Frame) -> Scene:
     """Return the add-ons' drawings of theoretical predictions."""
+    return _drawn("theory", frame.scenario, frame)
+
+
+def _drawn(method: str, scenario: Scenario, seen: Outline | Frame) -> Scene:
+    """Return what a method of all add-ons draws of what is seen."""
     scene = Scene()
-    for addon in frame.scenario.addons:
-        with called(f"add-on {addon.key!r}", addon.theory):
-            addon.theory(scene, frame)
+    for addon in scenario.addons:
+        draw = getattr(addon, method)
+        with called(f"add-on {addon.key!r}", draw):
+            draw(scene, seen)
     return scene
 
 

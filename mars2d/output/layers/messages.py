@@ -43,7 +43,8 @@ def messages(frame: Frame) -> Scene:
         tail, tip = ends
         if row["status"] in (ON_ITS_WAY, DELIVERED):
             scene.line([tail, tip], stroke=faded(colors[one], 0.5), width=WIDTH / 2)
-            share = _share(row, frame.time)
+            sent, arrival = float(row["time"]), float(row["arrival"])
+            share = min(max((frame.time - sent) / (arrival - sent), 0.0), 1.0)
             way = max(share - COMET, 0.0), share
             start, head = (tail + part * (tip - tail) for part in way)
             scene.arrow(start, head, fill=faded(colors[one], 0.9), width=WIDTH)
@@ -67,9 +68,3 @@ def _ends(
     ahead = np.array([dx, dy]) / apart
     aside = ASIDE * min(sizes) * np.array([ahead[1], -ahead[0]])
     return np.array(one) + sizes[0] * ahead + aside, np.array(other) - sizes[1] * ahead + aside
-
-
-def _share(row: np.void, time: float) -> float:
-    """Return how far a message has got at a time, from 0 to 1."""
-    sent, arrival = float(row["time"]), float(row["arrival"])
-    return min(max((time - sent) / (arrival - sent), 0.0), 1.0)

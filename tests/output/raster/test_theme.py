@@ -6,7 +6,7 @@ import numpy as np
 import pygame
 import pytest
 
-from mars2d.core.scene import PALETTE, Scene
+from mars2d.core.scene import PALETTE, Scene, rgb
 from mars2d.output.layers.table import Layers
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
@@ -15,7 +15,6 @@ from mars2d.output.raster.theme import (
     DARK,
     LIGHT,
     _lab,
-    _numbers,
     contrast,
     mixed,
 )
@@ -76,7 +75,7 @@ def test_the_time_bar_and_the_slider_can_be_seen(theme):
 
 def distance(one, other):
     """Return how different two colours look, in OKLab."""
-    return float(np.linalg.norm(np.subtract(*(_lab(_numbers(c)) for c in (one, other)))))
+    return float(np.linalg.norm(np.subtract(*(_lab(np.array(rgb(c))) for c in (one, other)))))
 
 
 def test_the_colours_of_robots_are_told_apart_as_well():
