@@ -93,7 +93,7 @@ def _of_commands(world: World) -> Iterator[str]:
     for i, robot in enumerate(robots):
         for row, quantity in enumerate(robot.drive.inputs):
             asked = cuts.asked[row, i] or first_command[row, i]
-            turns = quantity.unit == "rad/s" and robot.drive.wheel_names is not None
+            turns = quantity.name == "omega" and robot.drive.wheel_names is not None
             if turns and (_like_degrees(asked) or abs(asked) >= WHIRL):
                 yield f"{robot.name} was given {quantity.name} = {asked:g} rad/s{_meant(asked)}"
     shares = cuts.count / (world.iteration + 1)
