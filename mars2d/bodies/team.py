@@ -201,7 +201,7 @@ class Drives:
         return twist
 
 
-FAR = 2.0
+FAR = 3.0
 """How many times larger than what a drive does a command is that is far beyond its bounds."""
 
 
@@ -214,8 +214,9 @@ class Cuts:
         self.asked = still.copy()
 
     def note(self, team: _Team, asked: Float, done: Float) -> None:
-        """Note which commands of some robots are cut to less than half."""
-        cut = np.abs(asked).max(axis=0) > FAR * np.abs(done).max(axis=0)
+        """Note which commands of some robots ask an actuator for many times what it does."""
+        wanted, got = (np.abs(team.drive.actuators(each)).max(axis=0) for each in (asked, done))
+        cut = wanted > FAR * got
         self.count[team.columns] += cut
         team.write(self.asked, np.where(cut, asked, team.part(self.asked)))
 
