@@ -88,7 +88,7 @@ def _of_commands(world: World) -> Iterator[str]:
 
     Only wheels turn a robot otherwise where they are cut: other drives go as meant, but slower.
     """
-    cuts, robots = world.simulation.cuts, world.scenario.robots
+    cuts, robots = world.simulation.drives.cuts, world.scenario.robots
     first_command = world.history.command[0]
     for i, robot in enumerate(robots):
         for row, quantity in enumerate(robot.drive.inputs):

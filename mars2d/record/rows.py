@@ -118,7 +118,7 @@ class Rows:
     def energy(self) -> Energy:
         """The kinetic energy of each body in each row, and the work that has made it, J."""
         kinetic = [
-            energy_of(scenario, self._poses[rows], self._velocities[rows], self.work).kinetic
+            energy_of(scenario, self.all_poses[rows], self._velocities[rows], self.work).kinetic
             for scenario, rows in self._spans
         ]
         return Energy(np.concatenate(kinetic), self.work)
@@ -127,7 +127,7 @@ class Rows:
     def momentum(self) -> Momentum:
         """The momentum of each body in each row, N s, and the angular one of all, N m s."""
         found = [
-            momentum_of(scenario, self._poses[rows], self._velocities[rows])
+            momentum_of(scenario, self.all_poses[rows], self._velocities[rows])
             for scenario, rows in self._spans
         ]
         return Momentum(*map(np.concatenate, zip(*found, strict=True)))
@@ -140,7 +140,8 @@ class Rows:
         return [(self.scenario_at(a), slice(a, b)) for a, b in zip(begins, ends, strict=True)]
 
     @property
-    def _poses(self) -> Float:
+    def all_poses(self) -> Float:
+        """The poses (T, 3, n + p) of robots and props."""
         return np.concatenate([self.pose, self.prop_pose], axis=-1)
 
     @property

@@ -319,7 +319,7 @@ def test_somebody_who_drives_is_not_in_a_hurry(shown, arguments, speed, humans, 
 )
 def test_play_seats_people_in_their_order(shown, roles, humans):
     assert main(["play", "corner_game", *roles]) == BAD_INPUT
-    assert shown.pop() == (4.0, humans)
+    assert shown.pop() == (1.0, humans)
 
 
 @each_case(
