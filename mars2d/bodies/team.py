@@ -201,10 +201,6 @@ class Drives:
         return twist
 
 
-FAR = 2.0
-"""How many times larger than what a drive does a command is that is far beyond its bounds."""
-
-
 class Cuts:
     """The commands far beyond the drives' bounds: how many of each robot, and the last ones."""
 
@@ -214,8 +210,9 @@ class Cuts:
         self.asked = still.copy()
 
     def note(self, team: _Team, asked: Float, done: Float) -> None:
-        """Note which commands of some robots are cut to less than half."""
-        cut = np.abs(asked).max(axis=0) > FAR * np.abs(done).max(axis=0)
+        """Note which commands of some robots ask actuators for more than thrice what they do."""
+        wanted, got = (np.abs(team.drive.actuators(each)).max(axis=0) for each in (asked, done))
+        cut = wanted > 3.0 * got
         self.count[team.columns] += cut
         team.write(self.asked, np.where(cut, asked, team.part(self.asked)))
 

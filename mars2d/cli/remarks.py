@@ -46,7 +46,7 @@ MOST = 0.5
 WHIRL = 30.0
 """Rad/s that no robot on wheels turns at."""
 
-LATE = 5.0
+LATE = 10.0
 """How many times longer than a control step laws may take it without a remark."""
 
 STILL = 1e-3

@@ -243,14 +243,9 @@ def test_a_graph_may_be_given_by_its_edges():
     assert Graph((2, [])).of(np.zeros((2, 2))) == [[], []]
 
 
-def test_a_graph_of_networkx_is_accepted_directed_or_not():
+def test_graphs_of_networkx_are_the_matrices_that_it_makes_of_them_directed_or_not():
     nx = pytest.importorskip("networkx")
-    assert Graph(nx.path_graph(3)) == Graph(PATH)
     assert Graph(nx.DiGraph([(0, 1), (0, 2)])).of(np.zeros((2, 3))) == [[1, 2], [], []]
-
-
-def test_graphs_of_networkx_are_the_matrices_that_it_makes_of_them():
-    nx = pytest.importorskip("networkx")
     for graph in (nx.cycle_graph(7), nx.gnp_random_graph(9, 0.4, seed=2, directed=True)):
         matrix = nx.to_numpy_array(graph, nodelist=range(len(graph)))
         assert Graph(graph) == Graph(matrix)

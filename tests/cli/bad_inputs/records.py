@@ -152,7 +152,6 @@ def _of_run(name: str, code: str, *words: str) -> Case:
 CASES = [
     *_damaged(),
     *_others(),
-    script("a record that is not there", "load('run.npz')", "run.npz", "no such file"),
     script("a record that is a number", "load(5)", "path = 5", "'run.npz'"),
     script("a record that is one's scenario", "load(Scenario())", "path = Scenario("),
     _of_run("a record that is larger than allowed", "load('run.npz', largest=10)", "run.npz", "10"),

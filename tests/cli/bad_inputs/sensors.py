@@ -36,7 +36,6 @@ scenario = Scenario(addons=[Mine()])"""
 HOOKS = [
     ("an add-on that fails at the start", "on_start(self, world): {}['x']", "KeyError"),
     ("an add-on that fails at the end", "on_stop(self, world): raise OSError('full')", "full"),
-    ("a hook of another name", "on_stepp(self, world): pass", "'on_step'"),
     ("obstacles that fail", "obstacles(self): return 1 / 0", "ZeroDivisionError"),
 ]
 
