@@ -296,10 +296,10 @@ def shown(monkeypatch):
     "arguments, speed, humans",
     [
         ([], 20.0, ()),
-        (["--human", "evader"], 10.0, (1,)),
-        (["--human", "evader", "--human", "0"], 4.0, (1, 0)),
+        (["--human", "evader"], 1.0, (1,)),
+        (["--human", "evader", "--human", "0"], 1.0, (1, 0)),
         (["--human", "0", "--speed", "7"], 7.0, (0,)),
-        (["--human", "red", "--set", "animation.playback_speed=max"], 4.0, (0,)),
+        (["--human", "red", "--set", "animation.playback_speed=max"], 1.0, (0,)),
     ],
 )
 def test_somebody_who_drives_is_not_in_a_hurry(shown, arguments, speed, humans, capsys):
@@ -319,7 +319,7 @@ def test_somebody_who_drives_is_not_in_a_hurry(shown, arguments, speed, humans, 
 )
 def test_play_seats_people_in_their_order(shown, roles, humans):
     assert main(["play", "corner_game", *roles]) == BAD_INPUT
-    assert shown.pop() == (4.0, humans)
+    assert shown.pop() == (1.0, humans)
 
 
 @each_case(
