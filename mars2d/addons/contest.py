@@ -33,12 +33,15 @@ class Outcome(NamedTuple):
     """The state of a contest: its captures in order, each role's score, and the winner or None.
 
     In a pursuit the hunters' score is how many they have caught, that of the evaders how many are
-    free. In a ring, where nobody is captured, it is how many are still in it.
+    free. In a ring, where nobody is captured, it is how many are still in it. payoff: what the
+    second role wants much of and the first one little; in a pursuit how long the evaders were free,
+    on average [s]; nan if nothing is counted so.
     """
 
     captures: tuple[Capture, ...]
     score: dict[str, int]
     winner: str | None
+    payoff: float = float("nan")
 
     @property
     def capture_time(self) -> float:
@@ -150,6 +153,15 @@ class Contest(Addon):
                 team.append(index)
             teams.append(tuple(team))
         return teams[0], teams[1]
+
+
+def wins(role: str) -> str:
+    """Return the words for a role's victory, such as "evader wins" and "hunters win".
+
+    >>> wins("hunters")
+    'hunters win'
+    """
+    return f"{role} {'win' if role.endswith('s') else 'wins'}"
 
 
 def listed(scenario: ScenarioLike, team: tuple[int, ...]) -> str:

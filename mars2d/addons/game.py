@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.addons.contest import Capture, Outcome, Teams, listed, robots_of
+from mars2d.addons.contest import Capture, Outcome, Teams, listed, robots_of, wins
 from mars2d.addons.elimination import Elimination, Exit, Float, Span, firsts, mark
 from mars2d.core import checks
 from mars2d.core.arithmetic import norms
@@ -165,6 +165,13 @@ class Game(Elimination):
         late = self.par is not None and row * scenario.sampling_time > self.par
         return late or super().time_is_over(scenario, row)
 
+    def outcome(self, record: Any) -> Outcome:
+        """Return captures, score, winner and payoff of a record, loaded or just made."""
+        found, end = super().outcome(record), float(record.time[-1])
+        caught = {capture.evader: capture.time for capture in found.captures}
+        evaders = self.players(record.scenario)[1]
+        return found._replace(payoff=sum(caught.get(k, end) for k in evaders) / len(evaders))
+
     @property
     def captures(self) -> tuple[Capture, ...]:
         """The captures so far, in order."""
@@ -196,7 +203,7 @@ class Game(Elimination):
         if self.winner is None or goes_on:
             return ""
         names = [str(robot.name) for robot in world.scenario.robots]
-        evaders, wins = len(self._teams[1]), f": {self.winner} wins"
+        evaders, won = len(self._teams[1]), f": {wins(self.winner)}"
         if len(self.captures) >= (self.wanted or evaders):
             time, hunter, evader = self.captures[-1]
             count = len(self.captures)
@@ -204,16 +211,16 @@ class Game(Elimination):
             whom = names[evader] + (f", the {which} of {evaders}," if evaders > 1 else "")
             verb = "sees" if self.capture == SIGHT else "catches"
             late = f", not within {self.par:g} s" if self.winner == self.roles[1][0] else ""
-            return f"{names[hunter]} {verb} {whom} after {round(time, 2):g} s{late}{wins}"
+            return f"{names[hunter]} {verb} {whom} after {round(time, 2):g} s{late}{won}"
         if self.goal is not None and self.winner == self.roles[1][0]:
             count = len(self.safe)
             who = f"{names[self.safe[0]]} has" if evaders == 1 else f"{count} of {evaders} have"
-            return f"{who} reached the goal after {world.time:g} s{wins}"
+            return f"{who} reached the goal after {world.time:g} s{won}"
         if self.goal is not None:
-            return f"time is over after {world.time:g} s{wins}"
+            return f"time is over after {world.time:g} s{won}"
         count, done = len(self.free), "seen" if self.capture == SIGHT else "caught"
         who = f"{count} of {evaders} were" if evaders > 1 else f"{names[self.free[0]]} was"
-        return f"{who} not {done} in {world.time:g} s{wins}"
+        return f"{who} not {done} in {world.time:g} s{won}"
 
     # -- how it is explained -----------------------------------------------------------------------
 
@@ -254,9 +261,7 @@ class Game(Elimination):
             CONTACT: f"touches {evader}",
             SIGHT: f"sees {evader}, with no obstacle between their middles",
         }.get(str(self.capture), f"comes within {self.capture} m of {evader}, middle to middle")
-        hunters_win, evaders_win = (
-            f"{role} win" if role.endswith("s") else f"{role} wins" for role in (hunting, evading)
-        )
+        hunters_win, evaders_win = wins(hunting), wins(evading)
         over = f"{self.par:g} s are over" if self.par else "time is over"
         in_goal = f"The {evaders_win} when {_so_many_are(count, needed)} in the goal"
         if self.capture is None:

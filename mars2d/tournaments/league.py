@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
 from itertools import groupby
@@ -21,6 +21,7 @@ from mars2d.core.files import atomic_write
 from mars2d.study.statistics import proportion
 from mars2d.study.table import cell, word_cell
 from mars2d.tournaments.match import Played
+from mars2d.tournaments.rating import MIDDLE, ratings
 from mars2d.tournaments.schedule import Schedule
 
 if TYPE_CHECKING:
@@ -42,9 +43,10 @@ class Standing:
     equal points per match share a place, and the next ones come after all of them. law: its name.
     played: matches with a result. forfeits: matches lost because the law failed. points: 1 for a
     win, 1/2 for a draw. share: of all points that it could have won, with Wilson's 95 % confidence
-    interval from share_low to share_high. capture_time: the mean over matches in which the evaders
-    were caught, seconds; if laws play all roles, only over those in which it was the hunter. None
-    if there are none.
+    interval from share_low to share_high. elo: its rating, with 95 % confidence within elo_half,
+    see `ratings`; what a role is better by does not count. payoff: the mean of its matches', in a
+    pursuit how long the evaders were free, seconds; if laws play all roles, only over those in
+    which it played the first. None if there is none.
     """
 
     role: str
@@ -59,14 +61,16 @@ class Standing:
     share: float
     share_low: float
     share_high: float
-    capture_time: float | None
+    elo: float
+    elo_half: float
+    payoff: float | None
 
 
 def league(played: Sequence[Played], roles: Sequence[str]) -> list[Standing]:
     """Return the standings, best first: the laws of the first role, then those of the second.
 
     If a law plays more than one role, there is one table for all laws. Laws are ordered by points
-    per match, then by mean capture time (short for hunters, long for evaders), then by name; their
+    per match, then by payoff (little for the first role, much for the second), then by name; their
     place is that of their points.
     """
     laws = {role: {each.match.laws[role] for each in played} for role in roles}
@@ -74,13 +78,22 @@ def league(played: Sequence[Played], roles: Sequence[str]) -> list[Standing]:
         laws = {"": set.union(*laws.values())}
 
     def order(standing: Standing) -> tuple[float, float, str]:
-        time = inf if standing.capture_time is None else standing.capture_time
+        payoff = inf if standing.payoff is None else standing.payoff
         evades = standing.role in roles[1:]
-        return -_rate(standing), -time if evades else time, standing.law
+        return -_rate(standing), -payoff if evades else payoff, standing.law
 
+    first, second = roles
+    games = [
+        ((first, each.match.laws[first]), (second, each.match.laws[second]), balance(each, roles))
+        for each in played
+        if not each.error
+    ]
+    if "" in laws:
+        games = [(("", one), ("", other), points) for (_, one), (_, other), points in games]
+    elo = ratings(games)
     standings = []
     for role, every in laws.items():
-        table = sorted((_standing(law, role, roles, played) for law in every), key=order)
+        table = sorted((_standing(law, role, roles, played, elo) for law in every), key=order)
         rates = [_rate(each) for each in table]
         standings += [replace(each, place=rates.index(_rate(each)) + 1) for each in table]
     return standings
@@ -90,7 +103,13 @@ def _rate(standing: Standing) -> float:
     return standing.points / max(standing.played, 1)
 
 
-def _standing(law: str, role: str, roles: Sequence[str], played: Sequence[Played]) -> Standing:
+def _standing(
+    law: str,
+    role: str,
+    roles: Sequence[str],
+    played: Sequence[Played],
+    elo: Mapping[tuple[str, str], tuple[float, float]],
+) -> Standing:
     counted = [
         (own, each)
         for each in played
@@ -98,10 +117,10 @@ def _standing(law: str, role: str, roles: Sequence[str], played: Sequence[Played
         if each.match.laws[own] == law and not each.error
     ]
     points = [points_of(each, own) for own, each in counted]
-    times = [
-        each.capture_time
+    payoffs = [
+        each.payoff
         for own, each in counted
-        if each.capture_time is not None and (role or own == roles[0])
+        if each.payoff is not None and (role or own == roles[0])
     ]
     won, drawn = points.count(WIN), points.count(DRAW)
     lost = len(points) - won - drawn
@@ -109,14 +128,21 @@ def _standing(law: str, role: str, roles: Sequence[str], played: Sequence[Played
     counts = (len(points), won, drawn, lost, forfeits)
     share = proportion(sum(points), len(points))
     of_all = (share.mean, share.low, share.high)
-    time = fmean(times) if times else None
-    return Standing(role, 0, law, *counts, sum(points), *of_all, time)
+    payoff = fmean(payoffs) if payoffs else None
+    rating = elo.get((role, law), (MIDDLE, inf))
+    return Standing(role, 0, law, *counts, sum(points), *of_all, *rating, payoff)
 
 
 def points_of(played: Played, role: str) -> float:
     """Return the points that the law of a role took in a match."""
     drawn = played.winner is None and not played.verdicts and not played.error
     return WIN * (played.winner == role) + DRAW * drawn
+
+
+def balance(played: Played, roles: Sequence[str]) -> float:
+    """Return the points of the first role, from 0 to 1; 1/2 if neither or both have lost."""
+    one, other = (points_of(played, role) for role in roles)
+    return (1 + one - other) / 2
 
 
 def matches_of(count: int) -> str:
@@ -185,7 +211,8 @@ class Tournament:
 
         In matches, ``verdict`` names the role and fault of each law that failed, such as
         ``pursuer: slow``. A row of grades is that of a group, which is the name of its files;
-        ``reasons`` says in words why it has forfeited. Raises InputError for another name.
+        ``elo`` is its rating over both roles, and ``reasons`` says in words why it has forfeited.
+        Raises InputError for another name.
         """
         if name == "matches":
             return tuple(map(self._match, self.matches))
@@ -194,11 +221,15 @@ class Tournament:
         if name != "grades":
             raise InputError(f"table={name!r}: expected 'matches', 'league' or 'grades'")
         groups: dict[str, list[tuple[str, Played]]] = {}
+        games, roles = [], self.schedule.roles
         for played in self.matches:
             if not played.error:
-                for role, law in played.match.laws.items():
-                    groups.setdefault(law.rpartition("/")[2], []).append((role, played))
-        return tuple(_grade(group, groups[group]) for group in sorted(groups))
+                names = {role: law.rpartition("/")[2] for role, law in played.match.laws.items()}
+                games.append((names[roles[0]], names[roles[1]], balance(played, roles)))
+                for role, group in names.items():
+                    groups.setdefault(group, []).append((role, played))
+        elo = ratings(games)
+        return tuple(_grade(group, groups[group], elo[group][0]) for group in sorted(groups))
 
     def _match(self, played: Played) -> dict[str, Any]:
         """Return a match's row: its number, settings, seed, laws and result."""
@@ -210,7 +241,7 @@ class Tournament:
             **{role: match.laws[role] for role in roles},
             "winner": played.winner,
             **{f"{role}_score": played.score.get(role) for role in roles},
-            "capture_time": played.capture_time,
+            "payoff": played.payoff,
             "steps": played.steps,
             "verdict": "; ".join(f"{role}: {v.kind}" for role, v in played.verdicts.items()),
             "message": played.message,
@@ -237,7 +268,7 @@ class Tournament:
         return target
 
 
-def _grade(group: str, matches: Sequence[tuple[str, Played]]) -> dict[str, Any]:
+def _grade(group: str, matches: Sequence[tuple[str, Played]], elo: float) -> dict[str, Any]:
     """Return a group's row in the grading sheet, from its roles and matches."""
     lost = [(each.verdicts[role], each) for role, each in matches if role in each.verdicts]
     kinds = Counter(verdict.kind for verdict, _ in lost)
@@ -250,6 +281,7 @@ def _grade(group: str, matches: Sequence[tuple[str, Played]]) -> dict[str, Any]:
         "group": group,
         "matches": len(matches),
         "points": sum(points_of(each, role) for role, each in matches),
+        "elo": round(elo),
         "forfeits": len(lost),
         "reasons": "; ".join(reasons),
     }
@@ -280,7 +312,7 @@ def league_tables(tournament: Tournament) -> Iterator[tuple[list[Standing], list
 def _texts(standing: Standing) -> dict[str, str]:
     """Return a standing as text, by the headings of its columns."""
     share = f"{standing.share:.2f} ({standing.share_low:.2f} to {standing.share_high:.2f})"
-    time = standing.capture_time
+    payoff = standing.payoff
     counts = ("played", "won", "drawn", "lost", "forfeits")
     return {
         "place": f"{standing.place}",
@@ -288,5 +320,6 @@ def _texts(standing: Standing) -> dict[str, str]:
         "points": f"{standing.points:g}",
         "share (95 %)": share if standing.played else "-",
         **{name: f"{getattr(standing, name)}" for name in counts},
-        "caught after": "-" if time is None else f"{time:.1f} s",
+        "Elo": f"{standing.elo:.0f} ± {standing.elo_half:.0f}" if standing.played else "-",
+        "free for": "-" if payoff is None else f"{payoff:.1f} s",
     }

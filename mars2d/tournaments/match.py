@@ -51,17 +51,17 @@ class Played:
     """The result of a match.
 
     winner: a role, or None for a draw or if both laws failed. score: each role's, at the end.
-    capture_time: the time at which the last evader was caught, seconds, or None. message: how the
-    match ended, one line. verdicts: on laws that failed and so forfeited the match, by role.
-    output: printed by each role's law. digest: of the record, or empty. steps: the number of
-    control steps. replay: data for a page, or empty. error: why there is no result, or empty.
-    protected: whether the system kept the laws from everything that could harm others.
+    payoff: how long the evaders were free, seconds, or what else the contest counts, or None.
+    message: how the match ended, one line. verdicts: on laws that failed and so forfeited the
+    match, by role. output: printed by each role's law. digest: of the record, or empty. steps: the
+    number of control steps. replay: data for a page, or empty. error: why there is no result, or
+    empty. protected: whether the system kept the laws from everything that could harm others.
     """
 
     match: Match
     winner: str | None = None
     score: Mapping[str, float] = field(default_factory=dict)
-    capture_time: float | None = None
+    payoff: float | None = None
     message: str = ""
     verdicts: Mapping[str, Verdict] = field(default_factory=dict)
     output: Mapping[str, str] = field(default_factory=dict, repr=False)
@@ -147,6 +147,6 @@ def replayed(match: Match, limits: Limits, replays: bool = False) -> tuple[Playe
     }
     if verdicts:
         return Played.forfeited(match, verdicts, teams, **result), record
-    time = None if isnan(outcome.capture_time) else outcome.capture_time
+    payoff = None if isnan(outcome.payoff) else outcome.payoff
     message = record.over_message
-    return Played(match, outcome.winner, capture_time=time, message=message, **result), record
+    return Played(match, outcome.winner, payoff=payoff, message=message, **result), record

@@ -60,6 +60,18 @@ def test_a_distance_is_a_capture_at_the_first_control_step_within_it():
     assert world.over_message == "red catches blue after 2 s: pursuer wins"
 
 
+def test_a_capture_after_the_par_is_too_late_and_the_run_may_go_on_until_it():
+    world = finished(chase(Game(ROLES, par=2.0, to_the_end=True)))
+    assert world.over_message == "red catches blue after 3.4 s, not within 2 s: evader wins"
+    outcome = world.addons.game.outcome(world.record)
+    assert (outcome.winner, outcome.payoff) == ("evader", pytest.approx(3.4, abs=1e-3))
+    world = finished(chase(Game(ROLES, par=2.0)))
+    assert world.over_message == "blue was not caught in 2.1 s: evader wins"
+    assert world.addons.game.outcome(world.record).winner == "evader"
+    assert finished(chase(Game(ROLES, par=3.5))).addons.game.winner == "pursuer"
+    assert Game(ROLES, par=2.0).aim("pursuer", world.scenario) == "catch blue within 2 s"
+
+
 def test_nobody_has_won_before_the_end_nor_when_something_else_ends_it():
     world = World(chase())
     for _ in range(5):
@@ -95,7 +107,7 @@ def test_the_nearest_of_several_hunters_is_the_one_who_catches():
     )
     assert World(scenario).over is False
     world = finished(scenario)
-    assert world.over_message == "robot1 catches robot2 after 0 s: hunters wins"
+    assert world.over_message == "robot1 catches robot2 after 0 s: hunters win"
 
 
 def test_contacts_with_others_are_no_captures():

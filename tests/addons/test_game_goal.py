@@ -49,6 +49,17 @@ def test_an_evader_whose_middle_is_in_the_goal_is_safe_stands_still_and_has_won(
     assert np.isnan(game.outcome(world.record).capture_time)
 
 
+def test_where_nobody_is_caught_bodies_alone_keep_evaders_from_their_goal():
+    """The hunter drives against the evader, head-on and as strong."""
+    scenario = race([0.5, 0.5], -0.5, capture=None, hunted=["b0"])
+    red, blue, other = scenario.robots
+    for x, winner in ((1.0, "guard"), (-3.0, "attacker")):
+        world = finished(scenario.replace(robots=[red.at(x, 0.5), blue, other]))
+        assert (world.addons.game.winner, world.addons.game.caught) == (winner, ())
+        assert world.addons.game.outcome(world.record).winner == winner
+    assert "Nobody is caught." in scenario.addons[0].counts
+
+
 def test_some_are_safe_and_others_caught_and_it_goes_on_until_it_is_decided():
     # red is 0.6 m from b0 and b1 at about 2 s; b1, in the goal before, is safe
     scenario = race([0.0, 1.0, 0.0], 2.0, starts=[-1.0, 1.5, -2.0], wanted=2, capture=0.8)
@@ -140,6 +151,8 @@ def test_only_the_hunted_are_caught_and_the_second_role_helps_them():
         ({"wanted": 0}, "Game.wanted = 0: expected a whole number from 1"),
         ({"hunted": []}, r"Game.hunted = .*nobody has this role"),
         ({"capture": "sigth"}, "did you mean 'sight'"),
+        ({"capture": None}, "Game.capture = None: expected a way to capture, or a goal"),
+        ({"par": 0}, "Game.par = 0"),
     ],
 )
 def test_games_that_can_not_be_are_refused_in_words(fields, words):

@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
+from math import log10
 from types import MappingProxyType
+
+import pytest
 
 from mars2d.tournaments.isolation import Verdict
 from mars2d.tournaments.league import league
 from mars2d.tournaments.league_text import league_text
 from mars2d.tournaments.match import Match, Played, settled
 from mars2d.tournaments.page import league_page
+from mars2d.tournaments.rating import ratings
 from tests.tournaments.leagues import ROLES, tournament_of
 
 
-def played(number, pursuer, evader, winner, capture_time=None, **more) -> Played:
+def played(number, pursuer, evader, winner, payoff=None, **more) -> Played:
     """A match that went as is said; its options, seed and record do not matter."""
     seed, options = more.pop("seed", 0), more.pop("options", {})
     match = Match(number, "chase.py", options, seed, {"pursuer": pursuer, "evader": evader})
     more = {"digest": f"{number}", **more}
-    return Played(match, winner=winner, capture_time=capture_time, **more)
+    return Played(match, winner=winner, payoff=payoff, **more)
 
 
 SLOW = MappingProxyType({"pursuer": Verdict("slow", "c.py, line 7: no command after 1 s", 2.0)})
@@ -92,8 +96,8 @@ def test_of_equal_points_the_quicker_hunter_and_the_evader_that_lasts_longer_sta
     ]
     standings = league(matches, ROLES)
     assert [s.law for s in standings] == ["b", "a", "x", "y"]
-    assert [s.capture_time for s in standings] == [5.5, 6.5, 8.5, 3.5]
-    never = played(5, "a", "z", "evader"), played(6, "b", "z", "evader")
+    assert [s.payoff for s in standings] == [5.5, 6.5, 8.5, 3.5]
+    never = played(5, "a", "z", "evader", 20.0), played(6, "b", "z", "evader", 20.0)
     assert [s.law for s in league([*matches, *never], ROLES)][2:] == ["z", "x", "y"]
 
 
@@ -122,14 +126,32 @@ def test_equal_points_share_a_place_in_table_page_and_csv(tmp_path):
 def test_laws_that_play_both_roles_stand_in_one_table_with_the_time_that_they_hunted():
     matches = [played(1, "a", "b", "pursuer", 2.0), played(2, "b", "a", "evader")]
     first, second = league(matches, ROLES)
-    assert (first.law, first.role, first.played, first.won, first.capture_time) == (
+    assert (first.law, first.role, first.played, first.won, first.payoff) == (
         "a",
         "",
         2,
         2,
         2,
     )
-    assert (second.law, second.lost, second.capture_time) == ("b", 2, None)
+    assert (second.law, second.lost, second.payoff) == ("b", 2, None)
+
+
+def test_ratings_take_out_what_a_role_is_better_by_and_more_matches_narrow_them():
+    for count in (4, 40):
+        swapped = [("a", "b", 1.0), ("b", "a", 1.0)] * count  # the first role always wins
+        found = ratings(swapped)
+        assert found["a"][0] == pytest.approx(1500, abs=1e-6)
+        better = ratings([*swapped, *[("b", "a", 0.0), ("a", "b", 1.0)] * count])
+        assert better["a"][0] > 1500 > better["b"][0]
+        assert better["a"][0] + better["b"][0] == pytest.approx(3000, abs=1e-6)
+    assert ratings(3 * swapped)["a"][1] < found["a"][1]
+
+
+def test_a_rating_says_the_share_of_points_where_there_are_many_matches():
+    games = [("a", "b", 1.0)] * 750 + [("a", "b", 0.0)] * 250
+    games += [("b", "a", 0.0)] * 750 + [("b", "a", 1.0)] * 250
+    found = ratings(games)
+    assert found["a"][0] - found["b"][0] == pytest.approx(400 * log10(3), abs=5)
 
 
 def test_points_of_one_against_the_other_do_not_count_what_has_no_result():
@@ -162,12 +184,12 @@ def test_the_text_has_tables_points_of_pairings_rounds_and_faults():
     assert (
         text
         == """\
-   pursuer  points         share (95 %)  played  won  lost  forfeits  caught after
-1  a             2  1.00 (0.34 to 1.00)       2    2     0         0         3.0 s
-2  c             0  0.00 (0.00 to 0.66)       2    0     2         2             -
+   pursuer  points         share (95 %)  played  won  lost  forfeits         Elo  free for
+1  a             2  1.00 (0.34 to 1.00)       2    2     0         0  1759 ± 549     3.0 s
+2  c             0  0.00 (0.00 to 0.66)       2    0     2         2  1241 ± 549         -
 
-   evader  points         share (95 %)  played  won  lost  caught after
-1  x            2  0.50 (0.15 to 0.85)       4    2     2         3.0 s
+   evader  points         share (95 %)  played  won  lost         Elo  free for
+1  x            2  0.50 (0.15 to 0.85)       4    2     2  1500 ± 556     3.0 s
 
 Points of each pursuer against each evader:
 pursuer \\ evader  x

@@ -145,7 +145,7 @@ def test_a_law_that_fails_forfeits_with_a_verdict_and_the_rest_goes_on(evening):
 def test_the_game_says_who_won_and_when(evening):
     for played in evening.result.matches[-SEEDS:]:
         assert (played.winner, dict(played.score)) == ("pursuer", {"pursuer": 1.0, "evader": 0.0})
-        assert 0.1 * (played.steps - 1) <= played.capture_time <= 0.1 * played.steps
+        assert 0.1 * (played.steps - 1) <= played.payoff <= 0.1 * played.steps
         assert played.message.startswith("red catches blue after")
         assert played.output["pursuer"].startswith("here I am\nhere I am")
         assert played.replay
@@ -184,14 +184,17 @@ def test_the_folder_has_a_row_for_each_match_and_law_and_a_page(evening):
     row = rows[2]
     found = [row[name] for name in ("pursuer", "evader", "seed", "winner", "verdict")]
     assert found == ["loop", "nan", "0", "evader", "pursuer: late"]
-    assert row["capture_time"] == ""
+    assert row["payoff"] == ""
     assert rows[-1]["digest"] == evening.result.matches[-1].digest
-    assert float(rows[-1]["capture_time"]) == evening.result.matches[-1].capture_time
+    assert float(rows[-1]["payoff"]) == evening.result.matches[-1].payoff
     league = [
         [row["role"], row["place"], row["law"]] for row in rows_of(evening.out / "league.csv")
     ]
     assert league[:2] == [["pursuer", "1", "quick"], ["pursuer", "2", "loop"]]
-    grades = [[*row.values()] for row in rows_of(evening.out / "grades.csv")]
+    rated = rows_of(evening.out / "grades.csv")
+    elo = {row["group"]: int(row.pop("elo")) for row in rated}
+    assert elo["quick"] > elo["nan"] > elo["loop"]
+    grades = [[*row.values()] for row in rated]
     slow = "slow in 2 matches, first in match 1: loop.py, line 2: no command after 1 s"
     told = "ran out of time in 2 matches before, and forfeits the rest"
     out = f"late in 4 matches, first in match 3: {told}"

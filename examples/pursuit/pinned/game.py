@@ -51,7 +51,7 @@ def scenario(strength: float = 0.0, hunter: str = HUNTER, evader: str = EVADER, 
         sampling_time=0.05,
         stop_time=20.0,
         addons=[Game(roles, capture=None, goal=GOAL), Theory(pushes)],
-        animation=Animation(playback_speed=1, forces=True),
+        animation=Animation(playback_speed=1),
     )
 
 

@@ -6,11 +6,11 @@ import argparse
 
 from mars2d.cli.arguments import MANY, option, options_of, preferences_of, shared
 from mars2d.cli.runs import print_table, require_display
-from mars2d.core.errors import InputError, nearest
+from mars2d.core.errors import InputError
 from mars2d.core.terminal import tell
 from mars2d.scenario.examples import games, title_of
 from mars2d.scenario.experiment import Experiment, open_experiment
-from mars2d.scenario.roles import contest_of, contests_of, robots_named
+from mars2d.scenario.roles import contests_of, robots_named
 from mars2d.window import show
 
 MOST_NAMES = 5
@@ -40,19 +40,13 @@ def execute(arguments: argparse.Namespace) -> None:
 
 
 def _people(arguments: argparse.Namespace, experiment: Experiment) -> tuple[int, ...]:
-    """Return the robots, by index, that people play.
+    """Return the robots, by index, that people play, each by a role or a robot.
 
-    Where nobody wins, a robot may stand for a role. Raises InputError for roles that are none.
+    Raises InputError where nobody wins and none is named.
     """
     scenario, game = experiment.scenario, arguments.game
     wanted = [part.strip() for text in arguments.role for part in text.split(",")]
-    if contests_of(scenario):
-        roles = [role for role, _ in contest_of(scenario, game).roles]
-        for role in wanted:
-            if role not in roles:
-                hint = nearest(role, roles)
-                raise InputError(f"--role {role}: {game} has no such role{hint}")
-    elif not wanted:
+    if not wanted and not contests_of(scenario):
         names = [str(robot.name) for robot in scenario.robots]
         shown = ", ".join(names[:MOST_NAMES]) + (", ..." if len(names) > MOST_NAMES else "")
         raise InputError(

@@ -88,14 +88,15 @@ def _bar(standing: Standing) -> str:
 def grades(tournament: Tournament) -> str:
     """Return the table of all groups, with what each needs for its grade."""
     columns = {
-        "group": "head", "matches": "number", "points": "number points", "forfeits": "number",
-        "reasons": "ending",
+        "group": "head", "matches": "number", "points": "number points", "Elo": "number",
+        "forfeits": "number", "reasons": "ending",
     }  # fmt: skip
     rows = [
         (
             named(row["group"]),
             f"{row['matches']}",
             f"{row['points']:g}",
+            f"{row['elo']}",
             _forfeits(row["forfeits"]),
             escaped(row["reasons"]),
         )
@@ -164,7 +165,7 @@ def match_table(tournament: Tournament) -> str:
     columns = {
         "match": "head", **({"round": "round"} if len(tournament.rounds()) > 1 else {}),
         "seed": "seed number", **dict.fromkeys(schedule.roles, "player"),
-        "winner": "winner", "capture time": "time number", "how it ended": "ending",
+        "winner": "winner", "free for": "time number", "how it ended": "ending",
     }  # fmt: skip
     rows = []
     for played in tournament.matches:
@@ -173,7 +174,7 @@ def match_table(tournament: Tournament) -> str:
             "round": escaped(schedule.round_of(played.match)),
             "seed": str(played.match.seed),
             "winner": _winner(played),
-            "capture time": NONE if (t := played.capture_time) is None else f"{t:.2f} s",
+            "free for": NONE if (t := played.payoff) is None else f"{t:.2f} s",
             "how it ended": _ending(played),
         }
         for role, law in played.match.laws.items():

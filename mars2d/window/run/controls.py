@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from math import dist, inf
 
 import pygame
@@ -18,12 +18,11 @@ from mars2d.window.screen.source import Playback, Source
 from mars2d.window.screen.viewpoint import wheel_notches
 from mars2d.window.widgets.slider import SpeedSlider
 from mars2d.world.timeline import Timeline
-from mars2d.world.world import World
 
 DOUBLE, NEAR = 0.35, 6
 """The longest time between two clicks that are one double click, seconds; how far apart, pixels."""
 MARK_INTERVAL = 0.25
-"""How often the log of contacts is read for collisions, seconds."""
+"""How often a run is read for collisions, seconds."""
 
 
 class Controls:
@@ -35,8 +34,9 @@ class Controls:
     def __init__(self, player: Player, marked: Source) -> None:
         """Start with nothing drawn; marked: the source whose events are marked."""
         self._player = player
-        known = marks_of(marked.record) if isinstance(marked, Playback) else {}  # they stay
-        self._marks = Marks(marked).rows if isinstance(marked, Timeline) else lambda: known
+        self._marked = marked
+        self._marks = marks_of(marked.record) if isinstance(marked, Playback) else {}
+        self._read: tuple[object, ...] = ()  # what the marks of a run were read of
         self.time_bar, self.slider = TimeBar(), SpeedSlider(SPEEDS)
         self._pressed: tuple[float, Pixel, int, bool] = -inf, (0, 0), 0, False
         self.handles: list[Handle] = [
@@ -64,24 +64,32 @@ class Controls:
         )  # fmt: skip
 
     def _costs(self) -> str:
-        """Return where the time of a control step goes, and how long a picture takes."""
+        """Return the time that parts of a control step take on average, and the last picture."""
         source = self._player.source
         if not isinstance(source, Timeline) or not source.newest:
             return ""
-        spent = source.world.simulation.seconds.items()
-        step = ", ".join(f"{name} {_short(all_ / source.newest)}" for name, all_ in spent)
-        return f"a step: {step}; a picture: {_short(self._player.drawing)}"
+        spent = source.world.simulation.seconds
+        times = {name: seconds / source.newest for name, seconds in spent.items()}
+        unit, scale, digits = ("ms", 1e3, 1) if sum(times.values()) >= 1e-3 else ("µs", 1e6, 0)
+        times["picture"] = self._player.drawing
+        parts = ", ".join(f"{name} {scale * each:.{digits}f}" for name, each in times.items())
+        return f"{unit}: {parts}"
 
     def time_state(self) -> TimeState:
         """Return the state that the time bar shows."""
         source = self._player.source
         live = not isinstance(source, Playback)
+        if isinstance(self._marked, Timeline):
+            world, now = self._marked.world, time.monotonic() // MARK_INTERVAL
+            of = world, world.over, len(world.operator.log), len(self._marked.branches), now
+            if of != self._read:
+                self._read, self._marks = of, marks_in(self._marked)
         return TimeState(
             row=source.row,
             rows=source.newest,
             last=source.scenario.last_iteration if live else source.newest,
             sampling_time=source.scenario.sampling_time,
-            marks=self._marks(),
+            marks=self._marks,
             live=live,
         )
 
@@ -129,37 +137,12 @@ class Controls:
             self._player.set_speed(speed)
 
 
-def _short(seconds: float) -> str:
-    """Return a short time in words."""
-    return f"{1e3 * seconds:.2g} ms" if seconds >= 1e-3 else f"{1e6 * seconds:.0f} \N{MICRO SIGN}s"
-
-
-class Marks:
-    """The rows of a run with collisions, interventions, branches and errors."""
-
-    def __init__(self, timeline: Timeline) -> None:
-        """Start with nothing read."""
-        self._timeline = timeline
-        self._world: World | None = None
-        self._seen = 0  # rows of the contact log
-        self._next = 0.0
-        self._touched: list[int] = []
-
-    def rows(self) -> Mapping[MarkKind, Sequence[int]]:
-        """Return the rows of each kind in ascending order; collisions may lag by a moment."""
-        timeline, world = self._timeline, self._timeline.world
-        if world is not self._world:
-            self._world, self._seen, self._next, self._touched = world, 0, 0.0, []
-        now = time.monotonic()
-        if now >= self._next:
-            self._next = now + MARK_INTERVAL
-            contacts = world.frame.contact_log()
-            new, self._seen = contacts[self._seen :], len(contacts)
-            rows = meetings(new, world.sampling_time)
-            self._touched += [row for row in rows if row not in self._touched[-1:]]
-        return {
-            "collision": self._touched,
-            "hand": sorted({each.row for each in world.operator.log}),
-            "branch": sorted({timeline.parted(other) for other in timeline.branches}),
-            "error": [world.iteration] if world.over and not world.finished else [],
-        }
+def marks_in(timeline: Timeline) -> dict[MarkKind, list[int]]:
+    """Return the rows of a run with collisions, interventions, branches and errors, ascending."""
+    world = timeline.world
+    return {
+        "collision": meetings(world.frame.contact_log(), world.sampling_time),
+        "hand": sorted({each.row for each in world.operator.log}),
+        "branch": sorted({timeline.parted(other) for other in timeline.branches}),
+        "error": [world.iteration] if world.over and not world.finished else [],
+    }

@@ -299,7 +299,7 @@ class Director:
         """Return the scenario with all bodies at their poses of now."""
         frame = self._player.frame
         try:
-            return with_poses(frame.scenario, np.hstack([frame.pose, frame.prop_pose]))
+            return with_poses(frame.scenario, frame.all_poses)
         except InputError as error:  # bodies of a dense crowd may overlap
             self._notes.say(f"bodies are shown where they were at the start: {error}", "warning")
             return frame.scenario
@@ -311,7 +311,7 @@ class Director:
         of a 0 is 0 again. Where bodies would then overlap, nothing is rounded.
         """
         frame = self._player.frame
-        poses = np.hstack([frame.pose, frame.prop_pose])
+        poses = frame.all_poses
         drawn = np.array([body.pose for body in frame.scenario.bodies]).T
         short = np.where(poses == drawn, poses, np.round(poses, POSE_DIGITS) + 0.0)
         try:

@@ -7,9 +7,9 @@ from math import ceil
 import numpy as np
 
 from mars2d.core.scene import Scene, faded
+from mars2d.output.layers.bodies import bounding_circle
 from mars2d.output.layers.forces import (
     FORCE,
-    bounding_circle,
     force_scale,
     in_newtons,
     slip_marks,

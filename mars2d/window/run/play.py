@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mars2d.addons.contest import Contest
+from mars2d.addons.contest import Contest, wins
 from mars2d.bodies.drives.base import Drive
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import Steer
@@ -177,8 +177,8 @@ class Play:
         if winner is None:
             return Result("A draw", winners, news)
         if len(self.seats) > 1 or not mine:
-            verb = "win" if winner.endswith("s") else "wins"
-            return Result(f"{winner[:1].upper()}{winner[1:]} {verb}", winners, news)
+            words = wins(winner)
+            return Result(words[:1].upper() + words[1:], winners, news)
         if winner == mine[0].role:
             return Result("You win", winners, news, FASTER)
         return Result("You lose", winners, news, 1 / FASTER)

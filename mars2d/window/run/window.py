@@ -130,9 +130,7 @@ class Window(PlayerWindow):
             self._is_picture, self._select_at, self._offer,
         )  # fmt: skip
         self._actions |= {
-            "contacts": lambda: self.toolbar.open(
-                "contacts", partial(entries_of_contacts, self.player, self._actions)
-            ),
+            "contacts": self._offer_contacts,
             "source": lambda: self._ending.open_source(self.notes),
             **{name: partial(self._switch_panel, name) for name in (*LACKS, "printed")},
             "within": partial(self._step_within, 1),
@@ -505,6 +503,11 @@ class Window(PlayerWindow):
             self.dock.switch(name)
         else:
             self.notes.say(LACKS[name], "warning")
+
+    def _offer_contacts(self) -> None:
+        """Open the menu of contacts, beside the card of the last impact."""
+        self._impact.open()
+        self.toolbar.open("contacts", partial(entries_of_contacts, self.player, self._actions))
 
     def _to_contact(self, go: Callable[[], None]) -> None:
         """Go to a contact of the selected body, or of any; forces and its card are shown there."""
