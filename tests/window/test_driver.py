@@ -296,10 +296,10 @@ def shown(monkeypatch):
     "arguments, speed, humans",
     [
         ([], 20.0, ()),
-        (["--human", "evader"], 10.0, (1,)),
-        (["--human", "evader", "--human", "0"], 4.0, (1, 0)),
+        (["--human", "evader"], 1.0, (1,)),
+        (["--human", "evader", "--human", "0"], 1.0, (1, 0)),
         (["--human", "0", "--speed", "7"], 7.0, (0,)),
-        (["--human", "red", "--set", "animation.playback_speed=max"], 4.0, (0,)),
+        (["--human", "red", "--set", "animation.playback_speed=max"], 1.0, (0,)),
     ],
 )
 def test_somebody_who_drives_is_not_in_a_hurry(shown, arguments, speed, humans, capsys):
