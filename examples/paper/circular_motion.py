@@ -7,7 +7,6 @@ of the beacon is from PSI - 2 pi to PSI, so they turn left. In view is who is ne
 than D_L and |beta_j| <= pi / n. Source: Ceccarelli et al., Automatica 44(12), 2008, with c = 2.
 Prediction: a circle, v / radius = k_b g(radius, RHO_0) pi / 2, if k_v <= 2 k_b and the least rho g,
 -0.1448 RHO_0, is > -2 v / (3 pi k_b); even gaps, or of D_0 at least where that is shorter.
-The MARS paper (Fig. 8) gives the beacon's way alone; lengths and gains are ours, and fit its room.
 """
 
 from functools import partial
@@ -48,8 +47,7 @@ def scenario(n=4, radius=0.7, k_b=0.63, k_v=0.75):  # -, m, rad/s, rad/s
     )
 
 
-def seen_from_lamp(record, time):
-    """Return distances and gaps [degrees] of the robots round the lamp."""
+def round_lamp(record, time):  # distances and gaps [degrees]
     lamp, row = record.scenario.addons[0].where(time), np.searchsorted(record.time, time - 1e-9)
     x, y = record.pose[row, :2] - np.transpose([lamp])
     gaps = np.diff(np.sort(np.degrees(np.arctan2(y, x))))
@@ -61,7 +59,7 @@ def checks(record):
     if k_v > 2 * k_b or radius * g(radius, RHO_0) <= 3 * 0.1448 * RHO_0:
         yield Prediction.silent("radius and gaps", "k_v or the radius is beyond what is proven")
     elif end >= 200:  # else they are not there yet
-        (rho, gaps), (_, before) = (seen_from_lamp(record, time) for time in (end, end - 20))
+        (rho, gaps), (_, before) = (round_lamp(record, time) for time in (end, end - 20))
         if abs(max(gaps) - max(before)) > 1:
             yield Prediction.silent("radius and gaps", "gaps have changed in the last 20 s")
             return

@@ -17,8 +17,6 @@ class DelayLine:
     The delay need not be a multiple of the sampling time, nor the same for all n columns; then the
     commands in effect change within each sampling time. Before the first command arrives, commands
     are zero.
-
-    at_once: whether none is delayed.
     """
 
     def __init__(self, delay: float | Float, sampling_time: float, still: Float) -> None:
@@ -35,7 +33,6 @@ class DelayLine:
         oldest = max(age for _, groups in self._segments for age, _ in groups)
         self._sent = [still] * (oldest + 1)  # a ring: the next command replaces the oldest
         self._next = 0
-        self.at_once = not delays.any()
 
     def send(self, command: Float) -> list[tuple[float, Float]]:
         """Issue a command (m, n), and return those in effect meanwhile: (seconds, command)."""

@@ -154,7 +154,7 @@ class Drives:
         LawError if a drive of the user's fails.
         """
         last = self._reached
-        if not any(_differ(team.part(command), team.part(last)) for team in self._rated):
+        if not any((team.part(command) != team.part(last)).any() for team in self._rated):
             self._reached = command
             yield duration, self.twist(command)
             return
@@ -241,10 +241,6 @@ def _rows(twist: Any) -> Any:
     if not hasattr(twist, "__len__") or len(twist) != 3:
         raise LawError(f"twist returned {shown(twist)}: {ROWS}")
     return twist
-
-
-def _differ(a: Float, b: Float) -> bool:
-    return bool((a != b).any())
 
 
 def _grouped(drives: Mapping[str, Drive]) -> list[tuple[Drive, list[str]]]:

@@ -88,12 +88,12 @@ def _of_commands(world: World) -> Iterator[str]:
 
     Only wheels turn a robot otherwise where they are cut: other drives go as meant, but slower.
     """
-    cuts, robots = world.simulation.cuts, world.scenario.robots
+    cuts, robots = world.simulation.drives.cuts, world.scenario.robots
     first_command = world.history.command[0]
     for i, robot in enumerate(robots):
         for row, quantity in enumerate(robot.drive.inputs):
             asked = cuts.asked[row, i] or first_command[row, i]
-            turns = quantity.unit == "rad/s" and robot.drive.wheel_names is not None
+            turns = quantity.name == "omega" and robot.drive.wheel_names is not None
             if turns and (_like_degrees(asked) or abs(asked) >= WHIRL):
                 yield f"{robot.name} was given {quantity.name} = {asked:g} rad/s{_meant(asked)}"
     shares = cuts.count / (world.iteration + 1)

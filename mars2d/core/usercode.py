@@ -48,7 +48,7 @@ class called:  # noqa: N801 - used like a function, as contextlib's are
         late = error.why if isinstance(error, Late) else ""
         if not (late or isinstance(error, (Exception, SystemExit))):  # such as Ctrl-C
             return
-        where = users_line(stack_of(error)) or definition(self._function)
+        where = users_line(traceback.extract_tb(error.__traceback__)) or definition(self._function)
         if isinstance(error, LawError):
             error.where, error.robot = error.where or where, error.robot or self._robot
             return
@@ -105,11 +105,6 @@ def _steps_of(code: CodeType) -> list[dis.Instruction]:
     """Return the instructions of a function, and of those within it."""
     inner = [each for each in code.co_consts if isinstance(each, CodeType)]
     return [*dis.get_instructions(code), *(step for each in inner for step in _steps_of(each))]
-
-
-def stack_of(error: BaseException) -> traceback.StackSummary:
-    """Return the steps from where an exception was caught to where it was raised."""
-    return traceback.extract_tb(error.__traceback__)
 
 
 def users_line(stack: traceback.StackSummary) -> str | None:

@@ -30,10 +30,7 @@ _INSTEAD: dict[str, dict[str, str]] = {
         "obstacle obstacles wall walls map": "addons=[Map([[(x, y), ...], ...])], of mars2d.addons",
         "bounds arena size world field area width": "workspace=[(x, y), ...], the area's corners",
         "sensor sensors": "Robot(sensors=[...])",
-        "initialpose initialposes pose poses starts":
-            "robots=[Robot(pose=(x, y, theta)), ...]; of a matrix P (3, n), "
-            "robots=[Robot(pose=p) for p in P.T]",
-        "robot": 'robots=[Robot(...)]; among options, "robots.*.diameter" is that of all robots',
+        "initialpose pose poses": "robots=[Robot(pose=p) for p in P.T], with P (3, n)",
         "nonholonomic drive": "Robot(drive=Holonomic()), or Robot(drive=Unicycle())",
         "periodic wrap torus toroidal boundary": _TORUS,
         "colors colours basecolors": "animation=Animation(base_colors=[...])",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from functools import cached_property, lru_cache
 from math import fsum, inf
 from typing import Any, Protocol, runtime_checkable
@@ -16,6 +16,7 @@ from mars2d.core.description import Description, entry, number
 from mars2d.core.plane import Outline, Point
 
 Float = NDArray[np.float64]
+Discs = Iterable[tuple[float, float, float]]
 
 MIN_CLEARANCE = 1e-3
 """At smaller distances from an obstacle the repulsion grows no further, metres."""
@@ -106,8 +107,8 @@ class Potential(Description):
         ex, ey = x2 - x1, y2 - y1
         return np.array([x1, y1, ex, ey, ex * ex + ey * ey])
 
-    def _near(self, x: float, y: float) -> Iterator[tuple[float, float, float]]:
-        """Yield rho and the unit vector away from the nearest point, for each near edge."""
+    def _near(self, x: float, y: float, discs: Discs = ()) -> Discs:
+        """Yield rho and the unit vector away from the nearest point, for near edges and discs."""
         x1, y1, ex, ey, square = self._edges
         along = np.clip(((x - x1) * ex + (y - y1) * ey) / square, 0.0, 1.0)
         dx, dy = x - x1 - along * ex, y - y1 - along * ey
@@ -116,11 +117,6 @@ class Potential(Description):
         for d, ax, ay in np.array([distance, dx, dy])[:, near].T.tolist():
             away = (ax / d, ay / d) if d > 0 else (0.0, 0.0)
             yield max(d - self.radius, MIN_CLEARANCE), *away
-
-    def _near_discs(
-        self, x: float, y: float, discs: Iterable[tuple[float, float, float]]
-    ) -> Iterator[tuple[float, float, float]]:
-        """Yield rho and the unit vector away from the centre, for each near disc."""
         for cx, cy, radius in discs:
             d = norm(x - cx, y - cy)
             if 0 < d < self.reach + self.radius + radius:
@@ -128,10 +124,7 @@ class Potential(Description):
                 yield rho, (x - cx) / d, (y - cy) / d
 
     def force(
-        self,
-        at: Sequence[float] | Float,
-        goal: Sequence[float] | Float,
-        discs: Iterable[tuple[float, float, float]] = (),
+        self, at: Sequence[float] | Float, goal: Sequence[float] | Float, discs: Discs = ()
     ) -> Point:
         """Return the force F = -grad U (Fx, Fy) at (x, y) [m], in m/s: a desired velocity.
 
@@ -141,7 +134,7 @@ class Potential(Description):
         distance = norm(gx - x, gy - y)
         pull = self.attraction * min(1.0, self.far / distance) if distance else 0.0
         fx, fy = [pull * (gx - x)], [pull * (gy - y)]
-        for rho, ux, uy in [*self._near(x, y), *self._near_discs(x, y, discs)]:
+        for rho, ux, uy in self._near(x, y, discs):
             push = self.repulsion * (1 / rho - 1 / self.reach) / (rho * rho)
             fx.append(push * ux)
             fy.append(push * uy)

@@ -7,7 +7,7 @@ import traceback
 from dataclasses import dataclass
 from pathlib import Path
 
-from mars2d.core.usercode import stack_of, users_line
+from mars2d.core.usercode import users_line
 
 CONTEXT_LINES = 2
 """Lines shown before and after the line that an error points at."""
@@ -43,7 +43,7 @@ def excerpt_of(error: BaseException, beside: Path | None = None) -> Excerpt | No
     stacks: list[traceback.StackSummary] = []
     step: BaseException | None = error
     while step is not None and len(stacks) < MAX_CAUSES:
-        stack = stack_of(step)
+        stack = traceback.extract_tb(step.__traceback__)
         if isinstance(step, SyntaxError) and step.filename:
             stack.append(traceback.FrameSummary(step.filename, step.lineno, "", lookup_line=False))
         stacks, step = [stack, *stacks], step.__cause__ or step.__context__

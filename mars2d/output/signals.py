@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -12,12 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.description import wrong
-from mars2d.core.errors import InputError, likely, nearest
+from mars2d.core.errors import InputError, nearest
 from mars2d.core.quantity import Quantity
 from mars2d.output.formats.columns import POSE_UNITS
 from mars2d.record.contact import net_forces
 from mars2d.record.energy import WORK
-from mars2d.record.interventions import Change, Place
+from mars2d.record.interventions import leaps_of
 
 if TYPE_CHECKING:
     from mars2d.record.rows import Rows
@@ -130,9 +130,11 @@ WITH_PARTS = ("command", "distance", "momentum")
 def _named(record: Rows, name: object, bodies: tuple[int, ...]) -> list[Signal]:
     if not isinstance(name, str):
         raise wrong("columns", name, "names of columns, such as 'x' or 'effort'")
-    head, _, part = name.strip().partition(".")
-    if head == "prop":
-        return [_prop(record, name, part)]
+    name = name.strip()
+    head, _, part = name.partition(".")
+    if head == "prop" and name in known_columns(record):
+        props = range(len(record.scenario.robots), len(record.scenario.bodies))
+        return [_of_poses(record, name, part, props)]
     key = head.removeprefix("sensor:")  # as `Record.columns` calls them
     if head not in HEADS and key in record.sensors:
         return _readings(record, name, key, part.split(".") if part else [], bodies)
@@ -174,11 +176,6 @@ def _named(record: Rows, name: object, bodies: tuple[int, ...]) -> list[Signal]:
     ]
 
 
-def _poses(record: Rows) -> Float:
-    """Return the poses of robots and props, (T, 3, N)."""
-    return np.concatenate([record.pose, record.prop_pose], axis=2)
-
-
 def _those_that_drive(record: Rows, name: str, bodies: tuple[int, ...]) -> tuple[int, ...]:
     """Return the robots among bodies. Raises InputError if there is none."""
     robots = tuple(body for body in bodies if body < len(record.scenario.robots))
@@ -189,25 +186,16 @@ def _those_that_drive(record: Rows, name: str, bodies: tuple[int, ...]) -> tuple
 
 def _of_poses(record: Rows, name: str, what: str, bodies: Sequence[int]) -> Signal:
     """Return a coordinate or the speed of some bodies."""
-    pose, bodies = _poses(record)[:, :, list(bodies)], tuple(bodies)
+    pose, bodies = record.all_poses[:, :, list(bodies)], tuple(bodies)
     if what in POSE_UNITS:
         return Signal(name, POSE_UNITS[what], pose[:, list(POSE_UNITS).index(what)], bodies)
     speed = np.full((len(pose), len(bodies)), np.nan)
     step = np.diff(pose[:, :2], axis=0)
     speed[1:] = np.hypot(step[:, 0], step[:, 1]) / record.scenario.sampling_time
-    for row, body in _put_elsewhere(record):
+    for row, body in leaps_of(record.interventions):
         if body in bodies and row < len(speed):  # it did not drive there
             speed[row, bodies.index(body)] = np.nan
     return Signal(name, "m/s", speed, bodies, "pre")
-
-
-def _put_elsewhere(record: Rows) -> Iterator[tuple[int, int]]:
-    """Yield (row, body) for each body that was placed by hand, rather than driven."""
-    for each in record.interventions:
-        if isinstance(each, Place):
-            yield each.row, each.body
-        elif isinstance(each, Change):
-            yield from ((each.row, body) for body, _ in each.moved)
 
 
 def _command(record: Rows, name: str, part: str, robots: tuple[int, ...]) -> list[Signal]:
@@ -237,7 +225,7 @@ def _distance(record: Rows, name: str, other: str, bodies: tuple[int, ...]) -> S
     bodies = tuple(body for body in bodies if body != to)
     if not bodies:
         raise InputError(f"columns: {name!r}: expected a body other than {other}")
-    place = _poses(record)[:, :2]
+    place = record.all_poses[:, :2]
     apart = place[:, :, list(bodies)] - place[:, :, [to]]
     return Signal(f"distance to {other}", "m", np.hypot(apart[:, 0], apart[:, 1]), bodies)
 
@@ -248,18 +236,6 @@ def _energy(record: Rows) -> Signal:
     values = {"kinetic, of all": energy.total}
     values |= {f"work of {what}": energy.by(what) for what in WORK}
     return Signal("energy", "J", np.stack(list(values.values()), axis=-1), (), curves=tuple(values))
-
-
-def _prop(record: Rows, name: str, part: str) -> Signal:
-    known = (*POSE_UNITS, SPEED)
-    if not record.scenario.props:
-        raise InputError(f"columns: {name!r}: the record has no props")
-    if part not in known:
-        expected = ", ".join(f"'prop.{each}'" for each in known)
-        hint = likely(part, known)
-        raise InputError(f"columns: there is no {name!r}: expected one of {expected}{hint}")
-    props = range(len(record.scenario.robots), len(record.scenario.bodies))
-    return _of_poses(record, name, part, props)
 
 
 # -- readings of sensors --------------------------------------------------------------------------

@@ -13,9 +13,8 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.physics import settings
+from mars2d.physics.islands.settings import ITERATIONS, ITERATIONS_JOINTS, PUSH_DEPTH
 from mars2d.physics.motion import Motion, repeated
-from mars2d.physics.translation import iterations_of
 from mars2d.scenario.scenario import Scenario
 
 Float = NDArray[np.float64]
@@ -27,8 +26,8 @@ class Engine(Motion):
     def __init__(self, scenario: Scenario) -> None:
         """Build all that moves or is touched; see `Motion`."""
         super().__init__(scenario)
-        depth = settings.PUSH_DEPTH * scenario.max_overlap  # of one iteration
-        self._depth_of_push = depth * iterations_of(scenario)
+        iterations = ITERATIONS_JOINTS if scenario.ties else ITERATIONS  # the least of any island
+        self._depth_of_push = PUSH_DEPTH * scenario.max_overlap * iterations
 
     @repeated
     def drive(self, twist: Float, duration: float, time: float) -> None:

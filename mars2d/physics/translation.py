@@ -24,8 +24,7 @@ from mars2d.bodies.props.base import Prop
 from mars2d.bodies.rigid import Rigid, Surface
 from mars2d.core.arithmetic import cosines_sines, norm
 from mars2d.core.materials import GRAVITY, MATERIALS, RULES, material_of
-from mars2d.physics import settings
-from mars2d.physics.islands import islands, library
+from mars2d.physics.islands import islands, library, settings
 from mars2d.physics.walls import Wall, walls_of
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Obstacle, Scenario
@@ -41,12 +40,16 @@ def mover_of(scenario: Scenario) -> Any:
         _body(module, i, rigid, part, scenario.physics == "contact")
         for i, (rigid, part) in enumerate(zip(scenario.bodies, parts, strict=True))
     ]
-    accuracy = _accuracy(scenario)
+    thinnest = min(body.shape.thickness for body in scenario.bodies)
+    swings = [_swing(tie, scenario.bodies) for tie in scenario.ties]
+    accuracy = module.Accuracy(
+        float(scenario.max_overlap), float(thinnest), min(swings, default=1e300)
+    )
     return module.Mover(
-        module.Accuracy(accuracy),
+        accuracy,
         module.Glide(*(part.tolist() for part in _quadrature(20))),
         bodies,
-        _walls(module, scenario, accuracy["seam_depth"]),
+        _walls(module, scenario, accuracy.seams()),
         [_tie(module, tie, bodies) for tie in scenario.ties],
         set(scenario.joined),
         _surfaces(module, scenario, bodies),
@@ -206,49 +209,6 @@ def _limits(attached: AttachedJoint) -> list[float]:
     return [-1e300, 1e300, 0.0]
 
 
-def _accuracy(scenario: Scenario) -> dict[str, float]:
-    """Return the deepest entry in one substep, and all else that says how fine these are."""
-    overlap = scenario.max_overlap
-    thinnest = min(body.shape.thickness for body in scenario.bodies)
-    slop = min(settings.SLOP, overlap / 4, thinnest / 32)
-    # A quarter of the overlap allowed is left to the slop and to what the solver leaves over.
-    entry = min(0.75 * overlap, 0.125 * thinnest)
-    springs = [_swing(tie, scenario.bodies) for tie in scenario.ties]
-    return {
-        "max_overlap": float(overlap),
-        "entry": entry,
-        "slop": slop,
-        "bias_rate": settings.BIAS_RATE,
-        "joint_bias_rate": settings.JOINT_BIAS_RATE,
-        "offset_step": settings.OFFSET_STEP,
-        "preload": settings.PRELOAD * slop,
-        "closed": min(settings.CLOSED, settings.MEETING * slop),
-        "touch": settings.MEETING * slop,
-        "impact_depth": settings.IMPACT_DEPTH * slop,
-        "braking_turn": settings.BRAKING_TURN
-        * overlap
-        * max(1.0, overlap / settings.DEFAULT_OVERLAP),
-        "growth": settings.GROWTH,
-        "linger": settings.LINGER,
-        "slack": settings.SLACK,
-        "rope_tolerance": settings.ROPE_TOLERANCE,
-        "stretch": settings.STRETCH * entry,
-        "joint_tolerance": settings.JOINT_TOLERANCE * settings.STRETCH * entry,
-        "push_depth": settings.PUSH_DEPTH * overlap,
-        "push_room": settings.PUSH_ROOM * overlap,
-        "overload": settings.OVERLOAD * entry,
-        "load_growth": settings.LOAD_GROWTH,
-        "load_decay": settings.LOAD_DECAY,
-        "iteration_factor": settings.ITERATION_FACTOR,
-        "spring_step": min(springs, default=1e300),
-        "iterations": settings.ITERATIONS,
-        "iterations_unequal": settings.ITERATIONS_UNEQUAL,
-        "iterations_ties": settings.ITERATIONS_JOINTS,
-        "grazing_depth": min(settings.SLOP, thinnest / 32),
-        "seam_depth": min(settings.SEAM_DEPTH * overlap, thinnest / 2),
-    }
-
-
 def _sides(corners: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
     """Return the outward normals of a polygon's sides; none for a disc."""
     if len(corners) < 2:
@@ -283,11 +243,6 @@ def _gauss(count: int) -> tuple[Float, Float]:
         slope = count * (x * value - before) / (x * x - 1)
         x = x - value / slope
     return x, 2 / ((1 - x * x) * (slope * slope))
-
-
-def iterations_of(scenario: Scenario) -> int:
-    """Return the least number of iterations that any island has."""
-    return settings.ITERATIONS_JOINTS if scenario.ties else settings.ITERATIONS
 
 
 def _swing(joint: AttachedJoint, bodies: Sequence[Rigid]) -> float:

@@ -25,12 +25,8 @@ def _no_contacts() -> NDArray[np.void]:
     return np.empty(0, dtype=CONTACT)
 
 
-def _no_messages() -> NDArray[np.void]:
-    return np.empty(0, dtype=MESSAGE)
-
-
 def _no_message_log() -> tuple[NDArray[np.void], Sequence[str]]:
-    return _no_messages(), ()
+    return np.empty(0, dtype=MESSAGE), ()
 
 
 def _no_readings(name: str, robot: int) -> None:  # noqa: ARG001
@@ -70,7 +66,7 @@ class Frame:
     contact_log: Callable[[], NDArray[np.void]] = _no_contacts
     prop_path: Float = field(default_factory=lambda: np.empty((0, 3, 0)))
     effort_path: Float = field(default_factory=lambda: np.empty((0, 0)))
-    messages: NDArray[np.void] = field(default_factory=_no_messages)
+    messages: NDArray[np.void] = field(default_factory=lambda: _no_message_log()[0])
     command_path: Float = field(default_factory=lambda: np.empty((0, 2, 0)))
     message_log: Callable[[], tuple[NDArray[np.void], Sequence[str]]] = _no_message_log
     reading_path: Callable[[str, int], NDArray[Any] | None] = _no_readings
@@ -113,22 +109,23 @@ class Frame:
         """The kinetic energies of robots and props, and the work since the start; see `Energy`."""
         if not self.work.size:
             return None
-        return energy_of(self.scenario, self._poses, self.exact_velocity, self.work)
+        return energy_of(self.scenario, self.all_poses, self.exact_velocity, self.work)
 
     @property
     def momentum(self) -> Momentum | None:
         """The momenta of robots and props; None if unknown."""
         if not self.work.size:
             return None
-        return momentum_of(self.scenario, self._poses, self.exact_velocity)
+        return momentum_of(self.scenario, self.all_poses, self.exact_velocity)
 
     def body_pose(self, body: int) -> tuple[float, float, float]:
         """Return the pose (x, y [m], theta [rad]) of a body: its index in `Scenario.bodies`."""
-        x, y, theta = self._poses[:, body].tolist()
+        x, y, theta = self.all_poses[:, body].tolist()
         return x, y, theta
 
     @property
-    def _poses(self) -> Float:
+    def all_poses(self) -> Float:
+        """The poses (3, n + p) of robots and props."""
         return np.hstack([self.pose, self.prop_pose])
 
 
@@ -142,7 +139,7 @@ def between(first: Frame, second: Frame, time: float) -> Frame:
     span = second.time - first.time
     if span <= 0 or time >= second.time:
         return second
-    n, before, after = first.pose.shape[1], first._poses, second._poses
+    n, before, after = first.pose.shape[1], first.all_poses, second.all_poses
     share = np.full(after.shape[1], max(0.0, (time - first.time) / span))
     share[[body for row, body in second.leaps if row > first.iteration]] = 0.0
     poses = before + share * (after - before)

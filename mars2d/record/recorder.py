@@ -17,7 +17,7 @@ from mars2d.record.contact import CONTACT
 from mars2d.record.energy import WORK
 from mars2d.record.interventions import Intervention
 from mars2d.record.message import MESSAGE, as_of, in_flight
-from mars2d.record.rows import Rows
+from mars2d.record.rows import COLUMNS, Rows
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.error_model import as_numbers
 
@@ -33,7 +33,7 @@ def _column(name: str) -> Any:
 
 
 class History:
-    """The record so far, as views: time (k,), pose (k, 3, n), command (k, m, n) and so on."""
+    """The record so far, as views: time (k,), pose (k, 3, n), command (k, 2, n) and so on."""
 
     def __init__(self, recorder: Recorder) -> None:
         self._recorder = recorder
@@ -231,19 +231,12 @@ class Recorder:
         interventions: Sequence[Intervention] = (),
     ) -> Rows:
         """Return the record so far; later rows do not change it."""
-        now = float(self.column("time")[-1]) if self.rows else 0.0
+        columns: dict[str, Any] = {name: self.column(name) for name in COLUMNS}
+        now = float(columns["time"][-1]) if self.rows else 0.0
         return Rows(
             scenario=self.scenario,
             seed=seed,
-            time=self.column("time"),
-            pose=self.column("pose"),
-            command=self.column("command"),
-            command_time=self.column("command_time"),
-            prop_pose=self.column("prop_pose"),
-            effort=self.column("effort"),
-            velocity=self.column("velocity"),
-            prop_velocity=self.column("prop_velocity"),
-            work=self.column("work"),
+            **columns,
             sensors=self.sensors(),
             sensor_robots={k: v for k, v in self.sensor_robots.items() if k in self._sensors},
             contacts=self.contacts(),

@@ -118,7 +118,7 @@ class Rows:
     def energy(self) -> Energy:
         """The kinetic energy of each body in each row, and the work that has made it, J."""
         kinetic = [
-            energy_of(scenario, self._poses[rows], self._velocities[rows], self.work).kinetic
+            energy_of(scenario, self.all_poses[rows], self._velocities[rows], self.work).kinetic
             for scenario, rows in self._spans
         ]
         return Energy(np.concatenate(kinetic), self.work)
@@ -127,7 +127,7 @@ class Rows:
     def momentum(self) -> Momentum:
         """The momentum of each body in each row, N s, and the angular one of all, N m s."""
         found = [
-            momentum_of(scenario, self._poses[rows], self._velocities[rows])
+            momentum_of(scenario, self.all_poses[rows], self._velocities[rows])
             for scenario, rows in self._spans
         ]
         return Momentum(*map(np.concatenate, zip(*found, strict=True)))
@@ -140,7 +140,8 @@ class Rows:
         return [(self.scenario_at(a), slice(a, b)) for a, b in zip(begins, ends, strict=True)]
 
     @property
-    def _poses(self) -> Float:
+    def all_poses(self) -> Float:
+        """The poses (T, 3, n + p) of robots and props."""
         return np.concatenate([self.pose, self.prop_pose], axis=-1)
 
     @property
@@ -186,12 +187,17 @@ class Rows:
             readings=readings,
             over_message=self.over_message if last else "",
             prop_pose=self.prop_pose[row],
-            contacts=self._contacts_before(row),
+            contacts=self.contacts[slice(*np.searchsorted(self.contact_rows, [row, row + 1]))],
             effort=self.effort[row],
             prop_path=self.prop_pose[:row],
             effort_path=self.effort[:row],
             contact_log=lambda: self.contacts[: np.searchsorted(self.contact_rows, row, "right")],
-            messages=self._messages_before(row),
+            messages=in_flight(
+                self.messages,
+                float(self.time[row]),
+                self.scenario.sampling_time,
+                self._longest_flight,
+            ),
             command_path=self.command[:row],
             message_log=lambda: (self.messages, self.contents),
             reading_path=lambda name, robot: self._readings_before(row, name, robot),
@@ -228,16 +234,6 @@ class Rows:
     def pair_forces(self) -> NDArray[np.void]:
         """The mean force of each pair in each control step in which it touched, dtype FORCE."""
         return pair_forces(self.contacts, self.contact_rows, self.scenario.sampling_time)
-
-    def _contacts_before(self, row: int) -> NDArray[np.void]:
-        """Return the contacts of the control step that led to a row."""
-        ends = np.searchsorted(self.contact_rows, [row, row + 1])
-        return self.contacts[ends[0] : ends[1]]
-
-    def _messages_before(self, row: int) -> NDArray[np.void]:
-        """Return the messages that were under way in the control step that led to a row."""
-        time, dt = float(self.time[row]), self.scenario.sampling_time
-        return in_flight(self.messages, time, dt, self._longest_flight)
 
     def _readings_before(self, row: int, name: str, robot: int) -> NDArray[Any] | None:
         """Return a sensor's readings on a robot before a row, (row, ...); None if not recorded."""

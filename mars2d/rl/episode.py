@@ -59,7 +59,9 @@ class Episode:
         self._source, self._options = source, dict(options or {})
         opened = open_experiment(source, self._options)
         self.experiment = str(source) if isinstance(source, (str, Path)) else ""
-        self._draws = "seed" not in self._options and _takes_seed(opened.source.function)
+        function = opened.source.function
+        takes = () if function is None else inspect.signature(function).parameters
+        self._draws = "seed" in takes and "seed" not in self._options
         self._random = np.random.default_rng()
         scenario = opened.scenario
         self.learners = (
@@ -232,10 +234,6 @@ def won_or_lost(world: World, robot: RobotView) -> float:
         if robot.index in live.results:
             return float(live.results[robot.index])
     return 0.0
-
-
-def _takes_seed(function: Callable[..., Any] | None) -> bool:
-    return function is not None and "seed" in inspect.signature(function).parameters
 
 
 def _indices(

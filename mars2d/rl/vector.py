@@ -16,7 +16,7 @@ with extra("rl", "environments need gymnasium"):
     from gymnasium.vector import AutoresetMode, SyncVectorEnv
 
 
-class VectorEnvironment(SyncVectorEnv[Row, Row]):
+class VectorEnvironment(SyncVectorEnv):
     """Many worlds of one experiment, in each of which the same robot learns.
 
     >>> environment = VectorEnvironment("corner_game", "pursuer", num_envs=3)

@@ -6,6 +6,7 @@ import importlib.util
 import inspect
 import itertools
 import sys
+import traceback
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from importlib.machinery import SourceFileLoader
@@ -17,7 +18,6 @@ from mars2d.core import checks
 from mars2d.core.errors import InputError, nearest, one_line
 from mars2d.core.files import note_file
 from mars2d.core.hints import described
-from mars2d.core.usercode import stack_of
 from mars2d.scenario.policy import SUFFIX, Policy
 
 _counter = itertools.count()
@@ -72,9 +72,8 @@ def located(where: str, problem: str) -> InputError:
 
 def line_in(error: BaseException, path: Path) -> str:
     """Return the line of `path` that an error passed through."""
-    lines = [
-        step.lineno for step in stack_of(error) if Path(step.filename).absolute() == path.absolute()
-    ]
+    stack, file = traceback.extract_tb(error.__traceback__), path.absolute()
+    lines = [step.lineno for step in stack if Path(step.filename).absolute() == file]
     return f"{path.name}, line {lines[-1]}" if lines else path.name
 
 

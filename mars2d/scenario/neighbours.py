@@ -96,25 +96,8 @@ class Everyone(Neighbourhood):
 
     def of(self, position: Float) -> Neighbours:
         """Return all other robots."""
-        return _Others(position.shape[1])
-
-
-class _Others(Sequence[Sequence[int]]):
-    """For each of n robots all others; listed on demand, since they are n^2 in all."""
-
-    def __init__(self, n: int) -> None:
-        self._n = n
-        self._listed: dict[int, Sequence[int]] = {}
-
-    def __len__(self) -> int:
-        return self._n
-
-    def __getitem__(self, i: Any) -> Any:
-        if not 0 <= i < self._n:
-            raise IndexError(i)
-        if i not in self._listed:
-            self._listed[i] = (*range(i), *range(i + 1, self._n))
-        return self._listed[i]
+        robots = tuple(range(position.shape[1]))
+        return [robots[:i] + robots[i + 1 :] for i in robots]
 
 
 def within(dx: Float, dy: Float, distance: float) -> NDArray[np.bool_]:

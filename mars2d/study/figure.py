@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.errors import InputError, counted
-from mars2d.output.figures.figure import check_axes, new_figure, save_drawing
+from mars2d.output.figures.figure import new_figure, save_drawing, show_in_notebooks
 from mars2d.output.figures.labels import shortened
 from mars2d.output.figures.legend import Entry
 from mars2d.output.figures.panels import (
     caption,
-    finish,
+    checked_axes,
     letters_in,
     name_curves,
     say,
@@ -91,7 +91,9 @@ def plot_study(
             title += f", {counted(len(table.failed), 'run')} failed"
         above = _above(grid, own=axes is None)
         name_curves(above, title, drawing.entries(above, shown), look)
-    return finish(list(grid.ravel()), own=axes is None)
+    if axes is None:
+        show_in_notebooks(*grid.ravel())
+    return list(grid.ravel())
 
 
 def save_study_figure(
@@ -123,15 +125,10 @@ def _grid(
     """Return the panels' axes, (estimates, columns): those given, or those of a new figure."""
     tall = len(shown)
     if axes is not None:
-        given = np.ravel(np.asarray(axes, dtype=object))
-        for ax in given:
-            check_axes(ax)
-        if len(given) != tall * wide:
-            names = ", ".join(estimate.label for estimate in shown)
-            beside = f" x {wide} side by side" if wide > 1 else ""
-            panels = f"{counted(tall, 'panel')} ({names}){beside}"
-            raise InputError(f"axes: {len(given)} of them, for {panels}: one for each")
-        return given.reshape(tall, wide)
+        names = ", ".join(estimate.label for estimate in shown)
+        beside = f", {wide} side by side" if wide > 1 else ""
+        given = checked_axes(axes, tall * wide, f"({names}{beside})")
+        return np.array(given, dtype=object).reshape(tall, wide)
     width = (look.single if wide == 1 else look.full) or (7.0 if wide == 1 else 2.5 * wide + 2.5)
     height = tall * PANEL_HEIGHT * look.panel + 0.09 * look.label
     figure = new_figure(*(look.page or (width, height)))

@@ -6,6 +6,7 @@ import pickle
 import random
 import re
 import time
+import traceback
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -18,7 +19,7 @@ from mars2d.bodies.props.box import Box
 from mars2d.core.deadline import Deadline
 from mars2d.core.errors import InputError, Late
 from mars2d.core.hints import described
-from mars2d.core.usercode import stack_of, users_line
+from mars2d.core.usercode import users_line
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
@@ -135,7 +136,7 @@ def run(
             made.error = error
         except Exception as error:  # whatever a user's object raises
             made.error = InputError(described(error))
-            made.error.where = users_line(stack_of(error))
+            made.error.where = users_line(traceback.extract_tb(error.__traceback__))
     return made
 
 

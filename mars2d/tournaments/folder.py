@@ -13,7 +13,7 @@ from typing import Any
 
 from mars2d.core.errors import InputError
 from mars2d.core.files import growing, writing
-from mars2d.physics.settings import versions
+from mars2d.physics.versions import versions
 from mars2d.tournaments.isolation.limits import Verdict
 from mars2d.tournaments.match import Played
 from mars2d.tournaments.schedule import Schedule

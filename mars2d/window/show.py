@@ -23,6 +23,8 @@ from mars2d.world.world import Watcher
 
 if TYPE_CHECKING:
     from mars2d.output.formats.mcap import Log
+    from mars2d.window.run.window import Window
+    from mars2d.window.screen.memory import Memory
     from mars2d.window.screen.viewpoint import Viewpoint
 
 
@@ -49,16 +51,12 @@ def show_experiment(
     """
     require_pygame("a window")
     from mars2d.window.run.play import game_of
-    from mars2d.window.run.window import Window
-    from mars2d.window.screen.memory import Memory
 
     source: Timeline | None = None
     kept = interrupts(kept=lambda: None if source is None else source.record)
     with kept, log or nullcontext():
         source = Timeline(experiment, watchers, log)
-        memory = Memory()
-        window = Window(source, speed, memory.size, preferences or memory.preferences())
-        window.dock.open(memory.panels)
+        window, memory = _window_of(source, speed, preferences)
         window.asks = asks
         if viewpoint is not None:
             window.viewpoint.look_as(viewpoint)
@@ -93,16 +91,24 @@ def show_record(record: Record, speed: float | str, preferences: Preferences | N
     if not len(record):
         raise InputError("this record has no rows: the run ended before its first step")
     require_pygame("a window")
-    from mars2d.window.run.window import Window
-    from mars2d.window.screen.memory import Memory
-
-    memory = Memory()
-    window = Window(Playback(record), speed, memory.size, preferences or memory.preferences())
-    window.dock.open(memory.panels)
+    window, memory = _window_of(Playback(record), speed, preferences)
     try:
         window.run()
     finally:
         memory.keep(**window.remembered)
+
+
+def _window_of(
+    source: Timeline | Playback, speed: float | str, preferences: Preferences | None
+) -> tuple[Window, Memory]:
+    """Return a window that looks as the last one did, and what windows remember."""
+    from mars2d.window.run.window import Window
+    from mars2d.window.screen.memory import Memory
+
+    memory = Memory()
+    window = Window(source, speed, memory.size, preferences or memory.preferences())
+    window.dock.open(memory.panels)
+    return window, memory
 
 
 def show_comparison(

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from mars2d.addons.communication import Communication
 from mars2d.bodies.delay import DelayLine
-from mars2d.bodies.team import Cuts, Drives
+from mars2d.bodies.team import Drives
 from mars2d.core.arrays import locked
 from mars2d.core.description import whole
 from mars2d.core.errors import InputError, LawError
@@ -47,11 +47,11 @@ class Simulation(State):
     nowhere else.
 
     declared: the scenario with its `random_starts`. operator: does to the world what is done from
-    outside. laws: of the team and of single robots. watch: called with the world between sensing
-    and control. world: the World that add-ons and watchers are called with. view: the world as laws
-    may see it. seconds: of the wall clock that physics, laws and sensing have
-    taken by now; sensing with add-ons. endless: whether the stop time does not end it, as in a
-    fork.
+    outside. laws: of the team and of single robots. drives: limit commands, and turn them to
+    motion. watch: called with the world between sensing and control. world: the World that add-ons
+    and watchers are called with. view: the world as laws may see it. seconds: of the wall clock
+    that physics, laws and sensing, with add-ons, have taken by now. endless: whether the stop time
+    does not end it, as in a fork.
     """
 
     def __init__(
@@ -76,9 +76,10 @@ class Simulation(State):
         n = len(scenario.robots)
         drives = {str(robot.name): robot.drive for robot in scenario.robots}
         still = locked(np.zeros((scenario.inputs, n)))
-        self._drives = Drives(drives, scenario.sampling_time, self.stream, still)
-        delay = scenario.command_delay + self._drives.dead_time
+        self.drives = Drives(drives, scenario.sampling_time, self.stream, still)
+        delay = scenario.command_delay + self.drives.dead_time
         self._delay = DelayLine(delay, scenario.sampling_time, still)
+        self._delayed = bool(delay.any())
         self._inputs = [drive.inputs for drive in drives.values()]
         self.props = tuple(PropView(self, i) for i in range(len(scenario.props)))
         self.minds = [Mind(str(robot.name), self.stream) for robot in scenario.robots]
@@ -140,24 +141,14 @@ class Simulation(State):
         return self._channel
 
     @property
-    def cuts(self) -> Cuts:
-        """The commands that the drives' bounds have cut."""
-        return self._drives.cuts
-
-    @property
     def drives_at_once(self) -> bool:
         """Whether its drives follow commands at once and exactly, so that they keep nothing."""
-        return self._delay.at_once and self._drives.exact
+        return self.drives.exact and not self._delayed
 
     @property
     def calls(self) -> tuple[int, int]:
         """What changes with each control step, and with each law that is asked."""
         return self.iteration, self.laws.calls
-
-    @property
-    def control(self) -> Control | None:
-        """The law of the team."""
-        return self.laws.function
 
     @property
     def record(self) -> Record:
@@ -332,7 +323,7 @@ class Simulation(State):
 
     def _saturate(self, command: Float) -> Float:
         """Limit the commands (m, n) to those that each drive can follow after the last ones."""
-        return self._drives.limit(command, self.command)
+        return self.drives.limit(command, self.command)
 
     def _write_row(self) -> None:
         time = self.time
@@ -379,7 +370,7 @@ class Simulation(State):
             self.driven.append((part, now))
             self.operator.drive(self.engine, now, part, time)
             time += part
-        reached = self._drives.reached()
+        reached = self.drives.reached()
         if reached is not None:
             self.engine.ask(reached)
         self.seconds["physics"] += perf_counter() - start
@@ -393,9 +384,9 @@ class Simulation(State):
 
     def _twists(self) -> Iterator[tuple[float, Float]]:
         """Yield the twists (3, n) that the drives ask for, each with the seconds that it holds."""
-        self._drives.draw()
+        self.drives.draw()
         for duration, command in self._delay.send(self.command):
-            yield from self._drives.drive(command, duration)
+            yield from self.drives.drive(command, duration)
 
     # -- changes while it runs -------------------------------------------------------------------
 
@@ -411,7 +402,7 @@ class Simulation(State):
         """
         same = {addon.key for addon in self.scenario.addons if addon in scenario.addons}
         self.scenario = scenario
-        self._drives.renew({str(robot.name): robot.drive for robot in scenario.robots})
+        self.drives.renew({str(robot.name): robot.drive for robot in scenario.robots})
         there = {key: addon for key, addon in vars(self.addons).items() if key in same}
         self._take_scenario(there, control)
         if moved is None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
-from typing import Any, NoReturn, cast
+from typing import Any, NoReturn, Self, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -195,7 +195,7 @@ class WorldView(Uncopied):
         """
         self._simulation.step(command)
 
-    def fork(self, *, laws: bool = True) -> WorldView:
+    def fork(self, *, laws: bool = True) -> Self:
         """Return an independent world that goes on from this instant, to try out what would happen.
 
         It has no stop time, so that a plan may look beyond the end of the run. It records nothing
@@ -208,7 +208,7 @@ class WorldView(Uncopied):
         Raises InputError, which names the law, add-on or sensor that can't be copied, such as a
         generator that runs.
         """
-        return cast(WorldView, forked(self._simulation, laws=laws).world)
+        return cast(Self, forked(self._simulation, laws=laws).world)
 
     def observe(self) -> None:
         """Call the add-ons and read the sensors for the present instant, as the next step would.

@@ -14,7 +14,7 @@ from mars2d.addons.map import Map
 from mars2d.core.arithmetic import norms
 from mars2d.core.deadline import Deadline, patience
 from mars2d.core.errors import InputError, counted
-from mars2d.physics.settings import versions
+from mars2d.physics.versions import versions
 from mars2d.record.contact import CONTACT, rows_of
 from mars2d.record.interventions import Change, Intervention, Steer
 from mars2d.scenario.experiment import Experiment

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any, cast
+from typing import Any
 
 from mars2d.core.description import wrong
 from mars2d.core.streams import check_seed
@@ -57,7 +57,7 @@ class World(WorldView):
             raise wrong("World.scenario", scenario, "a Scenario")
         kept = storage if record else None
         super().__init__(Simulation(scenario, check_seed(seed), filename, kept, options or {}))
-        self.watch = watch
+        self._simulation.watch = watch
         view = WorldView(self._simulation)
         positions = self.scenario.sees == "positions"
         team_view = TeamPositionsView(self._simulation) if positions else view
@@ -75,7 +75,7 @@ class World(WorldView):
         World.__init__(
             self,
             before.declared if scenario is None else scenario,
-            before.control,
+            before.laws.function,
             before.seed if seed is None else seed,
             filename=before.filename,
             watch=before.watch,
@@ -87,16 +87,7 @@ class World(WorldView):
     simulation: Simulation = through("_simulation")
     """The machinery behind it, for programs that rebuild or follow a run."""
 
-    @property
-    def watch(self) -> Watcher | None:
-        """Called with the world once a control step; may be set again."""
-        return self._simulation.watch
-
-    @watch.setter
-    def watch(self, watch: Watcher | None) -> None:
-        self._simulation.watch = watch
-
-    control: Callable[[World], Any] | None = through("_simulation.control")
+    control: Callable[[World], Any] | None = through("_simulation.laws.function")
     """The law of the team."""
     energy: Energy = through("_simulation.energy")
     """The kinetic energies of robots and props, and the work since the start, J."""
@@ -124,10 +115,6 @@ class World(WorldView):
         obstacle.
         """
         self._simulation.operator.change(scenario, control, moved, options)
-
-    def fork(self, *, laws: bool = True) -> World:
-        """Return an independent world that goes on from this instant; see `WorldView.fork`."""
-        return cast(World, super().fork(laws=laws))
 
     def break_off(self, why: str) -> None:
         """End the experiment at once, without a last control step, as after an error."""

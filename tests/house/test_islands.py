@@ -34,7 +34,9 @@ def defined(text: str) -> Iterator[str]:
 def taken() -> set[str]:
     """The names of library that the joined modules use."""
     every = [pair for name in build.MODULES for pair in imports(name)]
-    return {each for module, names in every if module == "library" for each in names}
+    named = {each for module, names in every if module == "library" for each in names}
+    texts = [text_of(f"{name}.py") for name in build.MODULES]
+    return named | {each for text in texts for each in re.findall(r"\blibrary\.(\w+)\b", text)}
 
 
 def offered() -> list[str]:
@@ -85,7 +87,7 @@ def test_a_module_imports_only_what_is_there_when_they_are_joined(name):
     known |= {
         "typing": {"Any"},
         "__future__": {"annotations"},
-        "mars2d.physics.islands": {"chipmunk", "shadow"},
+        "mars2d.physics.islands": {"chipmunk", "library", "settings", "shadow"},
         "pymunk._chipmunk_cffi": {"lib"},
     }
     for module, names in imports(name):

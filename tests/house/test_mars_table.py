@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mars2d import Animation, Holonomic, InputError, Robot, Scenario, Unicycle
+from mars2d import Animation, Holonomic, Robot, Scenario, Unicycle
 from mars2d.scenario.experiment import open_experiment
 from tests.cases import each_case
 
@@ -153,22 +153,6 @@ def test_what_stands_beside_marss_words_works_as_written():
     assert (red, blue) == (made('Robot(color="r")').color, Robot(color="b").color)
     square = [(0, 0), (0, 1), (1, 1), (1, 0)]
     assert Scenario(workspace=[*square, (0, 0)]).workspace == Scenario(workspace=square).workspace
-
-
-@each_case(
-    ("make", "hint"),
-    [
-        (lambda: Scenario(Initial_pose=[]), "[Robot(pose=p) for p in P.T]"),
-        (lambda: Scenario(non_holonomic=True), "Robot(drive=Holonomic())"),
-        (lambda: Animation(Enable=False), "speed=1"),
-        (lambda: Animation(Colors="rb"), "base_colors=[...]"),
-        (lambda: Robot(wheels_semiaxis_length=0.05), "wheel_semiaxis"),
-        (lambda: Robot(distance_center_barycenter=0.05), "center_offset"),
-    ],
-)
-def test_a_word_of_mars_is_answered_with_the_one_here(make, hint):
-    with pytest.raises(InputError, match=re.escape(hint)):
-        make()
 
 
 def test_the_outline_in_matlab_closes_what_it_opens():

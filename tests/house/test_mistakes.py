@@ -5,7 +5,11 @@ from pathlib import Path
 
 import pytest
 
+import mars2d
+from mars2d import InputError
 from mars2d.cli.command_line import main
+from mars2d.core.extras import extra
+from mars2d.sensors import Proximity
 from tests.cases import each_case
 
 HEAD = """\
@@ -31,6 +35,8 @@ ROBOTS = [
     ("sensors=[Proximity]", "write Proximity(...)"),
     ("drive=Unicycle", "write Unicycle(...)"),
     ("pose=(0, 0, '90')", "expected a pose (x, y, theta) in metres and radians"),
+    ("wheels_semiaxis_length=0.05", "write drive=Unicycle(wheel_semiaxis=...)"),
+    ("distance_center_barycenter=0.05", "write center_offset=..."),
     ("radius=0.1", "write diameter=2 * radius"),
     ("drive=Unicycle(max_v=1)", "write max_linear_speed=..."),
     ("drive=Unicycle(max_omega=1)", "max_angular_speed=..."),
@@ -59,6 +65,10 @@ SCENARIOS = [
     ("robots=[Robot(mass=20), Robot(pose=(1, 0, 0), mass=1)]",
      "set the mass of robot0 to 10 kg or less, or that of robot1 to 2 kg or more"),
     ("on_exit='bounce'", "expected one of 'stop', 'wall', 'ignore'"),
+    ("Initial_pose=[[1], [3], [0]]", "write robots=[Robot(pose=p) for p in P.T], with P (3, n)"),
+    ("non_holonomic=False", "write Robot(drive=Holonomic())"),
+    ("animation=Animation(enable=False)", "write speed=1 in mars2d.run(...) for a window"),
+    ("animation=Animation(colors='rb')", "write base_colors=[...]"),
     ("on_exit='wrap'", "takes distances modulo the side"),
     ("periodic=True", "takes distances modulo the side"),
     ("physics='real'", "expected one of 'contact', 'stop', 'ideal'"),
@@ -278,6 +288,63 @@ def test_a_scenario_file(answer, lines, place, words):
     told = answer("", "run", "room.toml", "--headless")
     helps(told, words)
     assert told.startswith(f"mars2d: room.toml, {place}: ")
+
+
+@each_case(
+    "act, words",
+    [
+        (lambda record: record.sensors["sonar"], "the record has no sensor 'sonar'; known: front"),
+        (lambda record: record.sensors["frnt"], "did you mean 'front'?"),
+        (lambda record: record.sensor_robots["sonar"], "the record has no sensor 'sonar'"),
+        (lambda record: record.plot_signals(["x", "spee"]), "did you mean 'speed'?"),
+        (lambda record: mars2d.load("way.npz"), "there is no such file in the current folder, /"),
+    ],
+)
+def test_a_line_about_a_record(act, words, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    robot = mars2d.Robot(sensors=[Proximity(range=1, name="front")])
+    record = mars2d.run(mars2d.Scenario(robots=[robot], stop_time=0.3))
+    assert [ax.get_ylabel() for ax in record.plot_signals(["x", "y"])] == ["x [m]", "y [m]"]
+    with pytest.raises(InputError) as caught:
+        act(record)
+    assert words in str(caught.value)
+
+
+def test_a_robot_and_a_world_are_printed_with_what_they_see():
+    printed = []
+
+    def look(robot):
+        printed.append(str(robot))
+        return 0.0, 0.0
+
+    sensors = [Proximity(range=1)]
+    robots = [
+        mars2d.Robot(name=sees, pose=(k, 1, 0), controller=look, sees=sees, sensors=sensors)
+        for k, sees in enumerate(("full", "sensors"))
+    ]
+    world = mars2d.World(mars2d.Scenario(robots=robots, stop_time=1))
+    world.step()
+    assert printed == [
+        "<robot 'full' at (0, 1, 0), proximity = True>",
+        "<robot 'sensors', proximity = True>",
+    ]
+    text = str(world).splitlines()
+    assert text[:2] == ["<World at 0.1 s:", "  <robot 'full' at (0, 1, 0), proximity = True>"]
+    assert isinstance(world.robots[0], mars2d.RobotView)
+    assert isinstance(world, mars2d.WorldView)
+
+
+def test_bodies_that_go_through_each_other_may_overlap_at_the_start():
+    robots = [mars2d.Robot(), mars2d.Robot(pose=(0.1, 0, 0))]
+    assert mars2d.run(mars2d.Scenario(robots=robots, physics="ideal", stop_time=0.3)).finished
+
+
+def test_a_missing_library_may_be_caught_as_an_import_that_failed():
+    with (
+        pytest.raises(ImportError, match="tables need nothing: pip install"),
+        extra("rl", "tables need nothing"),
+    ):
+        import no_such_library  # noqa: F401
 
 
 @each_case("line, words", COMMANDS)

@@ -17,6 +17,7 @@ from mars2d.output.layers.forces import (
     forces,
     in_newtons,
 )
+from mars2d.output.layers.velocities import in_metres_a_second
 from mars2d.record.contact import CONTACT
 from mars2d.record.frame import Frame
 from tests.cases import each_case
@@ -138,6 +139,11 @@ def test_where_nothing_acts_nothing_is_drawn():
 )
 def test_forces_are_read_with_two_digits(force, text):
     assert in_newtons(force) == text
+
+
+@each_case("speed, text", [(0.25, "0.25 m/s"), (0.997, "1.0 m/s"), (9.97, "10 m/s")])
+def test_speeds_are_read_as_forces_are(speed, text):
+    assert in_metres_a_second(speed) == text
 
 
 @each_case("most, round_", [(1, 1), (1.99, 1), (2, 2), (9.9, 5), (10, 10), (0.3, 0.2), (730, 500)])

@@ -205,7 +205,7 @@ def test_a_million_rows_are_drawn_small_and_without_losing_a_peak(record):
     [
         (["efort"], None, r"columns: there is no 'efort'; did you mean 'effort'\?"),
         (["prop.x", "prop.speed"], ["ann"], r"robots: all columns that were chosen are of props"),
-        (["prop.z"], None, r"columns: there is no 'prop.z': expected one of 'prop.x'"),
+        (["prop.z"], None, r"columns: there is no 'prop.z'; did you mean 'prop.[xy]'\?"),
         ([3], None, "columns = 3: expected names of columns"),
         (["x.y"], None, "x has no parts"),
         (["command.vy"], None, "'command.vy': command has no 'vy'; did you mean 'v'"),

@@ -98,15 +98,6 @@ def test_one_line_makes_an_environment_also_in_processes_without_another_import(
     subprocess.run(command, check=True, timeout=100, env=environment)
 
 
-@each_case("name", IDS)
-def test_what_is_registered_starts_at_random_and_again_from_the_same_seed(name):
-    environment = gymnasium.make(name)
-    first, other, again = (environment.reset(seed=seed)[0] for seed in (1, 2, 1))
-    assert np.array_equal(first, again)
-    assert not np.array_equal(first, other)
-    assert environment.unwrapped.world.scenario.random_starts == ()  # these are drawn
-
-
 def test_who_is_out_of_a_game_ends_alone_while_the_others_go_on():
     environment = ParallelEnvironment(herd(), record=True)
     environment.reset(seed=1)
@@ -130,20 +121,17 @@ def test_who_is_out_of_a_game_ends_alone_while_the_others_go_on():
     assert rerun(environment.record) is None
 
 
-def test_games_with_captures_pass_the_tests_of_pettingzoo_without_a_warning():
+@each_case(
+    "make, cycles",
+    [
+        (lambda: ParallelEnvironment(herd(apart=0.7)), 300),
+        (lambda: ParallelEnvironment("corner_game", options={"stop_time": 3}), 100),
+    ],
+)
+def test_the_parallel_environment_passes_the_tests_of_pettingzoo_without_a_warning(make, cycles):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        parallel_api_test(ParallelEnvironment(herd(apart=0.7)), num_cycles=300)
-        parallel_seed_test(lambda: ParallelEnvironment(herd(apart=0.7)), num_cycles=50)
-
-
-def test_the_parallel_environment_passes_the_tests_of_pettingzoo_without_a_warning():
-    def make():
-        return ParallelEnvironment("corner_game", options={"stop_time": 3})
-
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        parallel_api_test(make(), num_cycles=100)
+        parallel_api_test(make(), num_cycles=cycles)
         parallel_seed_test(make, num_cycles=50)
 
 

@@ -98,6 +98,8 @@ def test_gymnasium_makes_each_task_as_many_worlds():
         assert observations in many.observation_space
         assert np.array_equal(observations[0], one.reset(seed=4)[0])
         assert np.array_equal(observations[0], observations[2])
+        assert not np.array_equal(observations[0], observations[1])
+        assert one.unwrapped.world.scenario.random_starts == ()  # these are drawn
         results = many.step(many.action_space.sample())
         assert [part.shape for part in results[:4]] == [observations.shape, (3,), (3,), (3,)]
         pictures = many.render()

@@ -250,7 +250,7 @@ def of_editor(editor):
         "culprits": sorted(editor.judge.verdict.culprits),
         "prompt": None if editor.dialogs.prompt is None else editor.dialogs.prompt.label,
         "typed": typed_in(editor.dialogs.prompt),
-        "answers": answers_of(editor.dialogs.prompt),
+        "answers": answers_of(editor),
         "error": None if editor.dialogs.prompt is None else editor.dialogs.prompt.error,
         "help": editor.help.is_open,
         "laws": [law_of(robot) for robot in draft.robots],
@@ -280,8 +280,9 @@ def typed_in(prompt):
     return None if prompt is None or prompt.field is None else prompt.field.text
 
 
-def answers_of(prompt):
-    return {} if prompt is None else {each: place.center for each, place in prompt.places.items()}
+def answers_of(editor):
+    asks = editor.dialogs.prompt is not None
+    return {each: place.center for each, place in editor.menu.places.items()} if asks else {}
 
 
 def law_of(robot):

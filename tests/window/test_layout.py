@@ -69,18 +69,16 @@ def faults_of_editor(size, text):
         yield from (*surface.crowded(), *surface.cut())
     if plot.width * plot.height < LEAST * size[0] * size[1]:
         yield f"the arena has {plot.width * plot.height / size[0] / size[1]:.2f} of the picture"
-    buttons = [*editor._toolbar.places.items(), *editor._header._places]
+    buttons = [*editor._toolbar.places.items(), *editor._header.places.items()]
     yield from unfit([*buttons, ("the arena", plot)], picture)
     for title in ("Mass", "Colour", "More"):
         if title in editor.panel.places:
             press(editor, editor.panel.places[title].center)
             editor.draw(surface)
-            prompt, entries = editor.dialogs.prompt, editor.menu.places
-            yield from unfit([*(prompt.places if prompt else entries).items()], picture)
-            if not (prompt or entries):
+            yield from unfit([*editor.menu.places.items()], picture)
+            if not editor.menu.places:
                 yield f"{title} opens nothing"
             editor.menu.close()
-            editor.dialogs.prompt = None
 
 
 def faults_of_home(size, text):

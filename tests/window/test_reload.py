@@ -183,3 +183,24 @@ def test_a_scenario_file_and_its_laws_are_watched(tmp_path):
     said = [reload.poll(3.0), reload.poll(4.0)]
     assert said[1].message.startswith("walk.toml: in effect from now on")
     assert timeline.scenario.obstacles == (((3.0, 0.0), (3.0, 1.0)),)
+
+
+def test_a_file_that_is_gone_is_said_once_and_taken_again_when_it_is_back(desk):
+    (desk.folder / "speeds.py").unlink()
+    (said,) = desk.wait()
+    assert said.message == "speeds.py is gone: the run goes on with what it was"
+    assert said.error is None
+    assert desk.wait() == []
+    desk.write("speeds", "SLOW = 0.3\n")
+    (said,) = desk.wait()
+    assert said.message.startswith("speeds.py: in effect")
+
+
+def test_a_start_that_was_moved_waits_for_r(desk):
+    desk.timeline.advance()
+    desk.write("walk", WALK.replace("at(0, 2)", "at(0, 3)"))
+    (said,) = desk.wait()
+    assert said.message.startswith("walk.py: R starts robot1 from there; all else is in effect")
+    assert desk.timeline.world.pose[1, 1] == pytest.approx(2.0, abs=0.1)
+    desk.timeline.restart()
+    assert desk.timeline.world.pose[1, 1] == 3.0

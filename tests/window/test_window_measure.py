@@ -28,7 +28,7 @@ def scenario():
 def length(window):
     """What the ruler says."""
     shown, scene = window.shown, Scene()
-    shown._ruler.draw(scene, shown.player.frame, shown.camera, None)
+    shown._tools.ruler.draw(scene, shown.player.frame, shown.camera, None)
     return [shape.text for shape in scene.shapes if isinstance(shape, Text)]
 
 
@@ -47,15 +47,15 @@ def test_a_ruler_lies_between_points_and_bodies_and_moves_with_these(open_window
     window.press("Right")  # red goes ahead
     assert length(window) != ["1.500 m at \N{MINUS SIGN}90.0°"]
     window.press("F8")
-    assert not window.shown._ruler.on
+    assert not window.shown._tools.ruler.on
     window.click(0, 0, button=3)
     choose(window, "Measure from here")
-    assert window.shown._ruler.ends[0] == pytest.approx((0, 0), abs=0.01)
+    assert window.shown._tools.ruler.ends[0] == pytest.approx((0, 0), abs=0.01)
 
 
 def test_a_stopwatch_goes_with_the_time_of_the_run_also_backwards(open_window, room):
     window = open_window(0, experiment=str(room))
-    watch = window.shown._stopwatch
+    watch = window.shown._tools.stopwatch
     window.press("Right", "Right", "F9", "Right", "Right", "Right")
     assert watch.words(window.shown.player.frame.time).startswith("0.300 s   from 0.200 s")
     window.press("Home")
@@ -97,7 +97,7 @@ def test_an_error_opens_its_line_in_the_persons_own_editor(open_window, tmp_path
     window.press("Right", "Right", "Right", "Right")
     assert "F7 opens the file" in window.shown._ending.banner().hint
     window.do("mousemove", *window.shown.layout.footer.center, "click", 1)
-    opened = window.shown._editors
+    opened = window.shown._ending.editors
     wait_until(lambda: opened[-1].poll() is not None)
     assert seen.read_text() == f"+8 {path}"
     window.press("Home", "F7")  # where nothing has failed, at the top

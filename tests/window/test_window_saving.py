@@ -1,5 +1,6 @@
 """What is kept of the window: pictures, films, Python."""
 
+import signal
 import sys
 import time
 
@@ -97,3 +98,22 @@ def test_where_no_file_can_be_made_words_say_so(open_window, folder, place):
         assert not window.settle()["filming"]
     window.press("Right")
     window.until(lambda s: s["row"] == 1)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="limits the size of files as Linux does")
+def test_a_film_that_no_disk_takes_is_removed_and_said(open_window, folder):
+    import resource
+
+    pytest.importorskip("av")
+    window = open_window(5, folder=folder, rows=1000)
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    handler = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    try:
+        window.press("v")
+        resource.setrlimit(resource.RLIMIT_FSIZE, (20, before[1]))
+        window.until(lambda s: not s["filming"])
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+        signal.signal(signal.SIGXFSZ, handler)
+    window.says("circling_1.mp4")
+    assert not list(folder.glob("*.mp4"))

@@ -1,9 +1,8 @@
 """What a law is given leads to nothing that steps, rebuilds or changes its world."""
 
 import numpy as np
-import pytest
 
-from mars2d import Addon, LawError, Robot, Scenario, World
+from mars2d import Addon, Robot, Scenario, World
 from mars2d.addons import Communication, Density, Game, Map, Trails, Voronoi, Waypoints
 from mars2d.core.interfaces import FrameLike, RobotLike, ScenarioLike, WorldLike
 from mars2d.sensors import RangeFinder
@@ -25,12 +24,6 @@ def scenario(law=None, **fields):
         workspace=[(-5, -5), (5, -5), (5, 5), (-5, 5)],
         **fields,
     )  # fmt: skip
-
-
-def test_a_law_that_steps_its_world_is_refused():
-    world = World(Scenario(), lambda world: world.step())
-    with pytest.raises(LawError, match=r"world.step\(\) was called from within a step"):
-        world.step()
 
 
 def test_a_law_may_stop_its_world_and_hold_a_robot():

@@ -29,10 +29,6 @@ def test_a_scenario_runs_with_the_law_given():
     assert np.all(record.command == 0.1)
 
 
-def test_a_scenario_without_a_law_stands_still():
-    assert np.all(mars2d.run(SQUARE).pose == 0.0)
-
-
 def test_a_file_an_example_and_a_module_are_experiments(tmp_path):
     text = (
         "from mars2d import Scenario\n"

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import mars2d
-from mars2d import Holonomic, InputError, LawError, Robot, Scenario, Unicycle, World
+from mars2d import Holonomic, InputError, LawError, Robot, Scenario, World
 from mars2d.addons import Addon, Map
 from mars2d.bodies.props import Ball, Box, Puck
 from mars2d.sensors import Sensor
@@ -125,24 +125,6 @@ def test_a_given_command_that_cannot_be_used_is_an_input_error(command):
 # -- saturation -----------------------------------------------------------------------------
 
 
-def clipped(v: float, omega: float, limit: float, semiaxis: float) -> tuple[float, float]:
-    """MARS: each wheel's speed is bounded by itself."""
-    left = max(-limit, min(limit, v - semiaxis * omega))
-    right = max(-limit, min(limit, v + semiaxis * omega))
-    return (left + right) / 2, (right - left) / (2 * semiaxis)
-
-
-@given(
-    v=st.floats(-3, 3), omega=st.floats(-30, 30), limit=st.floats(0.05, 2), axis=st.floats(0.02, 1)
-)
-def test_a_unicycles_wheels_are_saturated_one_by_one(v, omega, limit, axis):
-    drive = Unicycle(max_linear_speed=limit, wheel_semiaxis=axis)
-    command = drive.saturate(np.array([[v], [omega]]))
-    assert command.ravel() == pytest.approx(clipped(v, omega, limit, axis), abs=1e-12)
-    wheels = [abs(command[0, 0] + sign * axis * command[1, 0]) for sign in (-1, 1)]
-    assert max(wheels) <= limit * (1 + 1e-9)
-
-
 @given(vx=st.floats(-3, 3), vy=st.floats(-3, 3), limit=st.floats(0.05, 2))
 def test_a_holonomic_robots_speed_is_shortened_in_its_direction(vx, vy, limit):
     command = Holonomic(max_linear_speed=limit).saturate(np.array([[vx], [vy]])).ravel()
@@ -153,13 +135,6 @@ def test_a_holonomic_robots_speed_is_shortened_in_its_direction(vx, vy, limit):
     else:
         assert np.hypot(*command) == pytest.approx(limit)
         assert command * speed == pytest.approx(np.array([vx, vy]) * limit)
-
-
-@given(st.floats(-5, 5), st.floats(-50, 50))
-def test_saturating_twice_changes_nothing(first, second):
-    for drive in (Unicycle(), Holonomic()):
-        once = drive.saturate(np.array([[first], [second]]))
-        assert drive.saturate(once.copy()).tolist() == once.tolist()
 
 
 # -- what is read only ----------------------------------------------------------------------

@@ -72,10 +72,7 @@ class Drift:
     def between(cls, first: Rows, second: Rows) -> Drift:
         """Return the drift of two runs of the same bodies."""
         rows = min(len(first), len(second))
-        one, other = (
-            np.concatenate([run.pose[:rows, :2], run.prop_pose[:rows, :2]], axis=2)
-            for run in (first, second)
-        )
+        one, other = (run.all_poses[:rows, :2] for run in (first, second))
         distance = np.hypot(*(other - one).swapaxes(0, 1))
         return cls(first.time[:rows], distance.max(axis=1), distance.mean(axis=1))
 

@@ -85,7 +85,7 @@ class _Placed:
     def __init__(self, record: Rows, rows: NDArray[np.intp]) -> None:
         """Take the bodies of a record, where they are at some rows."""
         self.pieces = [body.shape.pieces for body in record.scenario.bodies]
-        self._poses = np.concatenate([record.pose[rows], record.prop_pose[rows]], axis=2)
+        self._poses = record.all_poses[rows]
         self._outlines: dict[tuple[int, int], Any] = {}
 
     def _points(self, body: int, piece: Piece) -> Float:

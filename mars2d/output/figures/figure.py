@@ -494,10 +494,11 @@ def _columns(count: int, ratio: float, page: tuple[float, float] | None) -> int:
     return min(range(1, count + 1), key=fault)
 
 
-def show_in_notebooks(ax: Axes) -> None:
-    """Let notebooks show the axes or their figure, by the method `_repr_png_`."""
-    figure: Any = ax.get_figure()
-    ax.__dict__["_repr_png_"] = figure.__dict__["_repr_png_"] = partial(_png, figure)
+def show_in_notebooks(*axes: Axes) -> None:
+    """Let notebooks show axes or their figure, by the method `_repr_png_`."""
+    for ax in axes:
+        figure: Any = ax.get_figure()
+        ax.__dict__["_repr_png_"] = figure.__dict__["_repr_png_"] = partial(_png, figure)
 
 
 def _png(figure: Figure) -> bytes:

@@ -57,12 +57,7 @@ def panels(
     heights of the panels. rows: the rows that are drawn. Notebooks show the axes of a new figure.
     """
     if axes is not None:
-        given = list(np.ravel(np.asarray(axes, dtype=object)))
-        for ax in given:
-            check_axes(ax)
-        if len(given) != len(names):
-            panels_needed = f"{counted(len(names), 'panel')} ({', '.join(names)})"
-            raise InputError(f"axes: {len(given)} of them, for {panels_needed}: one for each")
+        given = checked_axes(axes, len(names), f"({', '.join(names)})")
     else:
         tall = sum(heights) if heights else len(names)
         width, height = look.page or (look.full or 7.6, tall * look.panel + 0.09 * look.label)
@@ -71,14 +66,27 @@ def panels(
             len(names), 1, sharex=True, squeeze=False, gridspec_kw=grid
         )
         given = list(made.ravel())
-        for ax in given:
-            show_in_notebooks(ax)
+        show_in_notebooks(*given)
     begin, end = record.time[rows][[0, -1]].tolist()
     for ax in given:
         ax.set_xlim(begin, end if end > begin else begin + record.scenario.sampling_time)
         frame_panel(ax, look, [1, 2, 4, 5, 10])
         if ax is given[-1] or not ax.get_shared_x_axes().joined(ax, given[-1]):
             ax.set_xlabel("time [s]", color=look.ink, fontsize=look.label)
+    return given
+
+
+def checked_axes(axes: Sequence[Axes], count: int, panels: str) -> list[Axes]:
+    """Return axes that are given. Raises InputError where they are not one for each panel.
+
+    panels: what they are, for the error.
+    """
+    given = list(np.ravel(np.asarray(axes, dtype=object)))
+    for ax in given:
+        check_axes(ax)
+    if len(given) != count:
+        needed = f"{counted(count, 'panel')} {panels}"
+        raise InputError(f"axes: {len(given)} of them, for {needed}: one for each")
     return given
 
 
@@ -206,14 +214,6 @@ def say(ax: Axes, text: str, look: Style) -> None:
         0.5, 0.5, text, transform=ax.transAxes, ha="center", va="center", wrap=True,
         fontsize=look.label, color=look.muted, parse_math=False,
     )  # fmt: skip
-
-
-def finish(axes: Sequence[Axes], *, own: bool) -> list[Axes]:
-    """Let notebooks show the axes if the figure is our own; return the axes."""
-    if own:
-        for ax in axes:
-            show_in_notebooks(ax)
-    return list(axes)
 
 
 def width_of(many: int, look: Style, few: int = 8) -> float:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from mars2d.core.description import real, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.files import atomic_write
+from mars2d.output.figures.extent import check_rows
 from mars2d.output.films.encoding import ENCODERS, Encoding
 from mars2d.output.films.footage import Cut, shots
 from mars2d.output.films.mp4 import require_av
@@ -72,17 +73,28 @@ def cut_of(
     end: float | None = None,
 ) -> Cut:
     """Return the part of a record that a film shows; see `film_record`."""
-    if len(record) == 0:
-        raise InputError("the record has no rows: there is nothing to be filmed")
+    check_rows(record, "film")
     return Cut.of(float(record.time[-1]), speed, fps, start, end, "the record")
 
 
-def check_film(path: str | os.PathLike[str], size: tuple[int, int], fps: float = 25) -> None:
+def check_film(
+    path: str | os.PathLike[str], size: tuple[int, int] | None = None, fps: float = 25
+) -> None:
     """Refuse a film that can't be made, before anything is run or drawn for it.
 
-    Raises InputError and MissingExtraError as `film_record`.
+    size: None if it is that of pictures. Raises InputError and MissingExtraError as `film_record`.
     """
-    suffix = _checked(Path(path), fps)
+    target = Path(path)
+    suffix = target.suffix.lower()
+    if suffix not in ENCODERS:
+        raise InputError(f"{target}: expected a film's name to end in {' or '.join(ENCODERS)}")
+    if not MIN_FPS <= real("fps", fps, "a number > 0") <= MAX_FPS[suffix]:
+        raise wrong("fps", fps, f"{MIN_FPS} to {MAX_FPS[suffix]} frames per second in a {suffix}")
+    if suffix == ".mp4":
+        require_av(target)
+    require_pygame("a film")
+    if size is None:
+        return
     expected = "(width, height) in pixels, {} x {} to {} x {}".format(*MIN_SIZE, *MAX_SIZE)
     if not (
         isinstance(size, (tuple, list))
@@ -95,7 +107,6 @@ def check_film(path: str | os.PathLike[str], size: tuple[int, int], fps: float =
     if suffix == ".mp4" and (width % 2 or height % 2):
         even = f"{width + width % 2} x {height + height % 2}"
         raise wrong("size", size, f"even numbers of pixels for .mp4, such as {even}")
-    require_pygame("a film")
 
 
 def size_of(text: str) -> tuple[int, int]:
@@ -143,26 +154,13 @@ def save_pictures(
 
     All may be drawn on one surface. Raises InputError and MissingExtraError as `save_film`.
     """
-    target = Path(path)
-    suffix = _checked(target, fps)
-    count = 0
+    check_film(path, fps=fps)
+    target, count = Path(path), 0
     with atomic_write(target) as file:
-        with Encoding(file, suffix, fps) as encoding:
+        with Encoding(file, target.suffix.lower(), fps) as encoding:
             for count, picture in enumerate(pictures, 1):
                 encoding.add(picture)
                 if progress is not None:
                     progress(count)
         if count == 0:
             raise InputError(f"{target}: a film needs at least one frame")
-
-
-def _checked(target: Path, fps: float) -> str:
-    """Return the suffix of a film. Raises InputError and MissingExtraError as `film_record`."""
-    suffix = target.suffix.lower()
-    if suffix not in ENCODERS:
-        raise InputError(f"{target}: expected a film's name to end in {' or '.join(ENCODERS)}")
-    if not MIN_FPS <= real("fps", fps, "a number > 0") <= MAX_FPS[suffix]:
-        raise wrong("fps", fps, f"{MIN_FPS} to {MAX_FPS[suffix]} frames per second in a {suffix}")
-    if suffix == ".mp4":
-        require_av(target)
-    return suffix

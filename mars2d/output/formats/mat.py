@@ -17,7 +17,7 @@ from mars2d.output.formats import header as headers
 from mars2d.output.formats.columns import plain_names
 from mars2d.record.rows import COLUMNS, Rows
 
-NAME = "out_data"
+NAME, STRUCT = "out_data", [("Vertex", object)]
 
 INDICES = {"contact:a", "contact:b", "message:sender", "message:receiver", "message:content"}
 """Columns of indices from 0 on. Obstacles, whose indices are negative, count from -1 anyway."""
@@ -59,7 +59,7 @@ def _looks(record: Rows) -> dict[str, Any]:
         "Stop_time": scenario.stop_time,
         "Workspace": np.array(workspace) if workspace else np.empty((0, 2)),
         "Bounds": np.array([scenario.bounds]),
-        "Map": {"Obstacle": _structs("Vertex", map(np.array, scenario.obstacles))},
+        "Map": {"Obstacle": np.array([(np.array(o),) for o in scenario.obstacles], STRUCT)},
         "Non_holonomic": np.array([[not drive.holonomic for drive in drives]]),
         "Command_delay": scenario.command_delay,
         "Exp_over": record.finished,
@@ -95,11 +95,6 @@ def _looks(record: Rows) -> dict[str, Any]:
             fields[name]: np.array(robots) + 1.0 for name, robots in record.sensor_robots.items()
         },
     }
-
-
-def _structs(field: str, values: Iterable[NDArray[Any]]) -> NDArray[Any]:
-    """Return a struct array with one field, (1, m)."""
-    return np.array([(value,) for value in values], dtype=[(field, object)]).reshape(1, -1)
 
 
 def _cell(texts: Iterable[str]) -> NDArray[Any]:

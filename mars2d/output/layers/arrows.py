@@ -149,3 +149,8 @@ def round_force(most: float) -> float:
     """Return the largest number of 1, 2 or 5 times a power of ten that is at most `most`."""
     power = 10.0 ** floor(log10(most) + 1e-9)
     return next(k * power for k in (5.0, 2.0, 1.0) if k * power <= most * (1 + 1e-9))
+
+
+def as_read(number: float) -> str:
+    """Return a number as it is read, with two digits from 1 on: 0.25, 4.9, 12."""
+    return f"{number:.{2 if number < 0.995 else 1 if number < 9.95 else 0}f}"

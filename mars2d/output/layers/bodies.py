@@ -108,10 +108,16 @@ def joints(frame: Frame) -> Scene:
     """Return the joints that act: ropes, rods, springs and the pins of hinges."""
     scene = Scene()
     if frame.scenario.ties and frame.scenario.physics == "contact":
-        poses = np.hstack([frame.pose, frame.prop_pose])
         for tie in frame.scenario.ties:
-            draw_tie(scene, tie, poses)
+            draw_tie(scene, tie, frame.all_poses)
     return scene
+
+
+def bounding_circle(shape: Shape, pose: Float) -> tuple[Float, float]:
+    """Return the centre (2,) and radius of a circle round a body at a pose (3,), metres."""
+    (x, y), radius = shape.bound
+    c, s = np.cos(pose[2]), np.sin(pose[2])
+    return pose[:2] + np.array([c * x - s * y, s * x + c * y]), radius
 
 
 def prop_edge(color: str) -> str:
@@ -216,15 +222,11 @@ MANY_BODIES = 20
 
 def draw_name(scene: Scene, scenario: Scenario, body: int, pose: Float) -> None:
     """Write the name of a body above it, at a pose (3,)."""
-    bodies, (x, y, theta) = scenario.bodies, pose.tolist()
+    bodies = scenario.bodies
     crowd, name = len(bodies) > MANY_BODIES, str(bodies[body].name)
-    (ahead, left), radius = bodies[body].shape.bound
-    place = (
-        x + ahead * cos(theta) - left * sin(theta),
-        y + ahead * sin(theta) + left * cos(theta) + radius,
-    )
+    middle, radius = bounding_circle(bodies[body].shape, pose)
     if crowd and name == f"robot{body}":
         name = str(body)
-    scene.shapes.append(
-        Text(place, name, INK, CROWD_SIZE if crowd else NAME_SIZE, "above", NAME_HALO)
-    )
+    x, y = middle.tolist()
+    size = CROWD_SIZE if crowd else NAME_SIZE
+    scene.shapes.append(Text((x, y + radius), name, INK, size, "above", NAME_HALO))

@@ -6,16 +6,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.scene import Scene
-from mars2d.geometry.shapes import Shape
 from mars2d.output.layers.arrows import (
     LONGEST,
     Ruler,
     arrow,
+    as_read,
     beside,
     crowd_factor,
     shortening,
     usual_length,
 )
+from mars2d.output.layers.bodies import bounding_circle
 from mars2d.record.contact import mean_forces
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
@@ -60,7 +61,7 @@ def forces(frame: Frame) -> Scene:
     drawn.
     """
     scene = Scene()
-    _slip_marks(scene, frame)
+    slip_marks(scene, frame)
     scenario, contacts = frame.scenario, frame.contacts
     if not len(contacts):
         return scene
@@ -84,7 +85,7 @@ def forces(frame: Frame) -> Scene:
     return scene
 
 
-def _slip_marks(scene: Scene, frame: Frame) -> None:
+def slip_marks(scene: Scene, frame: Frame) -> None:
     """Draw a ring of the warning colour round each robot whose drive is at its bound."""
     slipping = np.flatnonzero(frame.effort >= SLIPPING).tolist()
     share = crowd_factor(frame.scenario) ** -0.5
@@ -92,13 +93,6 @@ def _slip_marks(scene: Scene, frame: Frame) -> None:
         center, radius = bounding_circle(frame.scenario.robots[i].chassis, frame.pose[:, i])
         for color, width in ((SLIP_EDGE, 4.5), (SLIP, 2.7)):
             scene.circle(center, radius, stroke=color, width=share * width, pixels=1.5)
-
-
-def bounding_circle(shape: Shape, pose: Float) -> tuple[Float, float]:
-    """Return the centre (2,) and radius of a circle round a body at a pose (3,), metres."""
-    (x, y), radius = shape.bound
-    c, s = np.cos(pose[2]), np.sin(pose[2])
-    return pose[:2] + np.array([c * x - s * y, s * x + c * y]), radius
 
 
 def _touching_points(frame: Frame) -> Float:
@@ -113,6 +107,4 @@ def _touching_points(frame: Frame) -> Float:
 
 def in_newtons(force: float) -> str:
     """Return a force as it is read: 0.25 N, 4.9 N, 12 N, 2.4 kN."""
-    if force >= 999.5:
-        return f"{force / 1000:.3g} kN"
-    return f"{force:.{2 if force < 0.995 else 1 if force < 9.95 else 0}f} N"
+    return f"{force / 1000:.3g} kN" if force >= 999.5 else f"{as_read(force)} N"

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import cos, sin
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mars2d.core.scene import INK, Arrow, Scene, Shape, Text
+from mars2d.output.layers.bodies import bounding_circle
 from mars2d.output.layers.rings import RING, has_ring
 from mars2d.record.frame import Frame
 
@@ -66,8 +66,13 @@ def placed_names(
     the selected body, which has a ring: its name is placed before all others. last: the places by
     body in the picture before, which are kept where they are as good as others; it is updated.
     """
-    bodies = [_bound(frame, i, metres_per_point) for i in range(len(frame.scenario.bodies))]
-    ringed = [has_ring(frame.scenario, i) or i == first for i in range(len(bodies))]
+    rings = [has_ring(frame.scenario, i) for i in range(len(frame.scenario.bodies))]
+    ringed = [ring or i == first for i, ring in enumerate(rings)]
+    bodies = []
+    for body, pose, ring in zip(frame.scenario.bodies, frame.all_poses.T, rings, strict=True):
+        middle, radius = bounding_circle(body.shape, pose)
+        x, y = middle.tolist()
+        bodies.append(Box(x, y, *[max(radius, RING * metres_per_point * ring)] * 2))
     if first is not None:
         x, y, radius, _ = bodies[first]
         bodies[first] = Box(x, y, *[radius + SELECTED * metres_per_point] * 2)
@@ -144,16 +149,6 @@ def _box_of(shape: Arrow | Text, metres_per_point: float) -> Box:
     (x0, y0), (x1, y1) = shape.tail, shape.tip
     thick = 2 * shape.width * metres_per_point
     return Box((x0 + x1) / 2, (y0 + y1) / 2, abs(x1 - x0) / 2 + thick, abs(y1 - y0) / 2 + thick)
-
-
-def _bound(frame: Frame, body: int, metres_per_point: float) -> Box:
-    """Return the box of the circle round a body, or of its ring if that is larger."""
-    x, y, theta = np.hstack([frame.pose, frame.prop_pose])[:, body].tolist()
-    (ahead, left), radius = frame.scenario.bodies[body].shape.bound
-    c, s = cos(theta), sin(theta)
-    if has_ring(frame.scenario, body):
-        radius = max(radius, RING * metres_per_point)
-    return Box(x + ahead * c - left * s, y + ahead * s + left * c, radius, radius)
 
 
 def _boxes(bodies: ArrayLike, half: ArrayLike, places: Float) -> Float:

@@ -54,7 +54,7 @@ def of_bodies(each: Callable[[Scene, Scenario, int, Float], None]) -> Callable[[
 
     def shapes(frame: Frame) -> Scene:
         scene = Scene()
-        for body, pose in enumerate(np.hstack([frame.pose, frame.prop_pose]).T):
+        for body, pose in enumerate(frame.all_poses.T):
             each(scene, frame.scenario, body, pose)
         return scene
 

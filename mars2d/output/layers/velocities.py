@@ -14,11 +14,12 @@ from mars2d.output.layers.arrows import (
     LONGEST,
     Ruler,
     arrow,
+    as_read,
     crowd_factor,
     shortening,
     usual_length,
 )
-from mars2d.output.layers.forces import bounding_circle
+from mars2d.output.layers.bodies import bounding_circle
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 
@@ -65,7 +66,7 @@ def velocities(frame: Frame) -> Scene:
     if len(frame.scenario.robots) <= CROWD:
         _tightest_turns(scene, frame)
     scale = speed_scale(frame.scenario)
-    poses = np.hstack([frame.pose, frame.prop_pose])
+    poses = frame.all_poses
     turning = np.argsort(-np.abs(velocity[2]), kind="stable")[:MAX_ARCS]
     for i in sorted(turning.tolist()):
         if abs(velocity[2, i]) >= MIN_TURN:
@@ -105,5 +106,4 @@ def _arc(scene: Scene, center: Float, radius: float, heading: float, turn: float
 
 def in_metres_a_second(speed: float) -> str:
     """Return a speed as it is read: 0.25 m/s, 4.9 m/s, 12 m/s."""
-    digits = 2 if speed < 1 else 1 if speed < 10 else 0
-    return f"{speed:.{digits}f} m/s"
+    return f"{as_read(speed)} m/s"

@@ -12,6 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mars2d.core.scene import color_of, rgb
+
 
 class Tone(NamedTuple):
     """A colour with a meaning: as ink, and as the pale plate below that ink."""
@@ -64,16 +66,11 @@ class Theme(NamedTuple):
         inverted: black becomes white, and white the paper. Vivid colours are lightened to be
         readable.
         """
-        return _shaded(color, self.paper) if self.dark else color
+        return on_dark(color, self.paper) if self.dark else color
 
     def shade_pixels(self, pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
         """Return an image (..., 3 or 4) in this theme, by the same rule; its opacity stays."""
         return on_dark_pixels(pixels, self.paper) if self.dark else pixels
-
-
-@lru_cache(maxsize=4096)
-def _shaded(color: str, paper: str) -> str:
-    return on_dark(color[:7], paper) + color[7:]
 
 
 def mixed(color: str, ground: str, share: float) -> str:
@@ -120,13 +117,13 @@ BITS = 6
 
 def luminance(color: str) -> float:
     """Return the relative luminance of ``#rrggbb``, from 0 to 1, as WCAG 2 defines it."""
-    return float(_linear(_numbers(color)) @ LUMINANCE)
+    return float(_linear(np.array(rgb(color))) @ LUMINANCE)
 
 
+@lru_cache(maxsize=4096)
 def on_dark(color: str, paper: str) -> str:
-    """Return ``#rrggbb`` converted for dark paper: white becomes the paper itself."""
-    turned = np.rint(255 * _turned(_numbers(color)[None], paper))[0]
-    return "#" + "".join(f"{int(value):02x}" for value in turned)
+    """Return a colour converted for dark paper: white becomes the paper itself; opacity stays."""
+    return color_of(_turned(np.array([rgb(color)]), paper)[0].tolist()) + color[7:]
 
 
 def on_dark_pixels(pixels: NDArray[np.uint8], paper: str) -> NDArray[np.uint8]:
@@ -147,17 +144,13 @@ def _table(paper: str) -> NDArray[np.uint8]:
 
 def _turned(colors: Float, paper: str) -> Float:
     """Return colours (k, 3), from 0 to 1, converted for dark paper."""
-    lab, ground = _lab(colors), _lab(_numbers(paper))
+    lab, ground = _lab(colors), _lab(np.array(rgb(paper)))
     light, chroma = lab[:, :1], np.hypot(lab[:, 1:2], lab[:, 2:])
     vivid = np.clip((chroma - NEUTRAL) / (VIVID - NEUTRAL), 0.0, 1.0)
     over = ground[0] + np.clip(1 - light, 0.0, 1.0) ** GREY * (WHITE - ground[0])
     lifted = np.maximum(light, LEVEL - SLOPE * (LEVEL - light))
     tint = (1 - vivid) * light * ground[1:]
     return _colors(np.hstack([over + vivid * (lifted - over), lab[:, 1:] + tint]))
-
-
-def _numbers(color: str) -> Float:
-    return np.array([int(color[k : k + 2], 16) / 255 for k in (1, 3, 5)])
 
 
 def _linear(colors: Float) -> Float:

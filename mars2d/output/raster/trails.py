@@ -60,14 +60,6 @@ class Trails:
             and np.array_equal(path[self.drawn - 1, :2], self.last)
         )
 
-    def copy(self) -> Trails:
-        """Return an independent copy with the same state."""
-        other = copy(self)
-        if self.first is not None:
-            other.pen, other.pen_along = self.pen.copy(), self.pen_along.copy()
-            other.tip = self.tip.copy()
-        return other
-
     def prolong(self, surface: pygame.Surface, path: Float, leaping: Sequence[int] = ()) -> None:
         """Draw the new rows of a path (k, 3, n).
 
@@ -78,15 +70,16 @@ class Trails:
         if self.first is None:
             self.first = path[0, :2].copy()
             start = self._pixels(self.first[None])
-            self.pen, self.tip = start[0].copy(), start[0].copy()  # (n, 2) each
+            self.pen = self.tip = start[0]  # (n, 2)
             n = len(self.pen)
-            self.pen_along, self.tip_along = np.zeros(n), np.zeros(n)
+            self.pen_along = self.tip_along = np.zeros(n)
             if self.marker:
                 for i in range(n):
                     self._mark(surface, self.pen[i : i + 1], i)
         new = self._pixels(path[self.drawn :, :2])  # (m, n, 2)
-        for i in leaping:
-            self.pen[i] = self.tip[i] = new[0, i]
+        # Copies of this object keep the arrays that it had.
+        self.pen, self.pen_along, self.tip = self.pen.copy(), self.pen_along.copy(), self.tip.copy()
+        self.tip[leaping] = self.pen[leaping] = new[0, leaping]
         self.last = path[-1, :2].copy()
         self.drawn = len(path)
         steps = np.diff(np.concatenate([self.tip[None], new]), axis=0)
@@ -105,7 +98,7 @@ class Trails:
         if marked is not None:
             for i in np.nonzero(marked.any(axis=0))[0].tolist():
                 self._mark(surface, new[marked[:, i], i], i)
-        self.tip, self.tip_along = new[-1].copy(), along[-1].copy()
+        self.tip, self.tip_along = new[-1], along[-1]
 
     def loose_ends(
         self,
@@ -206,7 +199,7 @@ class Wakes:
             Trails(painter, camera, "-", *thin),
             Trails(painter, camera, scenario.animation.wake_style, *thick),
         )
-        self._start: Kept = still, tuple(trails.copy() for trails in self.trails)
+        self._start: Kept = still, tuple(map(copy, self.trails))
         self._most = memory // (still.get_pitch() * still.get_height())
         self._every = FIRST_STRIDE
         self._kept: dict[int, Kept] = {}
@@ -257,10 +250,10 @@ class Wakes:
     def _take(self, kept: Kept) -> None:
         surface, trails = kept
         self.surface.blit(surface, (0, 0))
-        self.trails = tuple(each.copy() for each in trails)
+        self.trails = tuple(map(copy, trails))
 
     def _keep(self, row: int) -> None:
-        self._kept[row] = self.surface.copy(), tuple(trails.copy() for trails in self.trails)
+        self._kept[row] = self.surface.copy(), tuple(map(copy, self.trails))
         while len(self._kept) > self._most:
             self._every *= 2
             self._kept = {k: kept for k, kept in self._kept.items() if k % self._every == 0}

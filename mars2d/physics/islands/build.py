@@ -17,11 +17,17 @@ from pathlib import Path
 HERE = Path(__file__).parent
 
 MODULES = (
-    "arithmetic", "chipmunk", "piece", "state", "rigid", "drive", "body", "floor", "flush", "seams",
-    "surfaces", "thrust", "pair", "tie", "solver", "contacts", "impact", "island", "neighbours",
-    "mover", "rays",
+    "arithmetic", "settings", "chipmunk", "piece", "state", "rigid", "drive", "body", "floor",
+    "flush", "seams", "surfaces", "thrust", "pair", "tie", "solver", "contacts", "impact", "island",
+    "neighbours", "mover", "rays",
 )  # fmt: skip
 """The modules, each after those that it imports."""
+
+CONSTANTS = r"^([A-Z_]+) = ([-\d./]+|[\d.]+e-?\d+|\d+ / \d+)(  #.*)?$"
+"""Lines that give a name to a number, which is one of C."""
+
+PREFIXES = r"\b(?:chipmunk|library|settings)\.(\w+)"
+"""Names of modules that are imported as such."""
 
 ALIASES = r"^(\w+(?:, \w+)*) = (lib\.cp\w+(?:, lib\.cp\w+)*)$"
 """Lines in which `chipmunk` only gives names to the engine's functions."""
@@ -119,6 +125,11 @@ def in_c() -> dict[str, str]:
     }
 
 
+def _constant(found: re.Match[str]) -> str:
+    """Return a constant in C."""
+    return f"cdef {'int' if found[2].isdigit() else 'double'} {found[1]} = {found[2]}"
+
+
 def joined() -> str:
     """Return the modules as one for Cython."""
     engine = (HERE / "library.pxi").read_text("utf-8")
@@ -128,8 +139,9 @@ def joined() -> str:
     for name in MODULES:
         text = (HERE / f"{name}.py").read_text(encoding="utf-8")
         text = re.sub(r"^from [^\n]+ import (\([^)]*\)|[^\n]*)\n", "", text, flags=re.M)
-        text = re.sub(r"\bchipmunk\.(\w+)", lambda found: named.get(found[1], found[1]), text)
+        text = re.sub(PREFIXES, lambda found: named.get(found[1], found[1]), text)
         text = re.sub(r"\bcython\.Doubles\b", "cython.double[::1]", text)
+        text = re.sub(CONSTANTS, _constant, text, flags=re.M)
         text = re.sub(ALIASES, "", text, flags=re.M)
         text = re.sub(r"\blib\.cp", "engine.cp", text)
         text = re.sub(r"^@callback\(.*\)$", "@cython.exceptval(check=False)", text, flags=re.M)

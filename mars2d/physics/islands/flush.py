@@ -8,18 +8,10 @@ if none is, nothing. What overlaps the face by more than a step that is not felt
 
 from __future__ import annotations
 
-from mars2d.physics.islands import chipmunk
+from mars2d.physics.islands import chipmunk, library
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
-from mars2d.physics.islands.library import (
-    JOINED,
-    Arbiter,
-    Handle,
-    Vector,
-    address_of,
-    callback,
-    thing_at,
-)
+from mars2d.physics.islands.library import Arbiter, Handle, Vector
 from mars2d.physics.islands.piece import Corner, Edge, Piece
 
 PARALLEL = 0.9999
@@ -213,24 +205,24 @@ class Flush:
 @cython.cfunc
 def show(shape: Handle, flush: Flush) -> cython.void:
     """Say what is to straighten contacts with a shape of a body, once it is joined."""
-    chipmunk.set_data(shape, address_of(flush))
+    chipmunk.set_data(shape, library.address_of(flush))
 
 
 @cython.cfunc
 def join(shape: Handle) -> cython.void:
     """Let contacts with a shape of a body be straightened."""
-    chipmunk.set_type(shape, JOINED)
+    chipmunk.set_type(shape, library.JOINED)
 
 
 @cython.cfunc
 def flush_of(arbiter: Arbiter, second: cython.bint) -> Flush:
     """Return what was shown of a contact's first or second shape."""
-    flush: Flush = thing_at(chipmunk.data_of(chipmunk.shape_of(arbiter, second)))
+    flush: Flush = library.thing_at(chipmunk.data_of(chipmunk.shape_of(arbiter, second)))
     return flush
 
 
 @cython.cfunc
-@callback("void(cpArbiter *, cpSpace *, void *)")
+@library.callback("void(cpArbiter *, cpSpace *, void *)")
 def straighten_contact(arbiter: Arbiter, _space: Handle, _data: Handle) -> cython.void:
     """Let the pieces of two bodies straighten a contact before it is solved."""
     if chipmunk.first_of(arbiter) >= 0 and chipmunk.second_of(arbiter) >= 0:

@@ -11,7 +11,7 @@ from __future__ import annotations
 from math import ceil, sqrt
 from typing import Any
 
-from mars2d.physics.islands import chipmunk
+from mars2d.physics.islands import chipmunk, settings
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
@@ -31,58 +31,55 @@ STUCK = 16
 @cython.final
 @cython.cclass
 class Accuracy:
-    """How finely islands are stepped; see ``mars2d/physics/settings.py``, and for units there."""
+    """How finely islands are stepped, as `settings` say: metres, and seconds.
+
+    entry: how deep bodies may get in one substep. push_depth: of one iteration. spring_step: the
+    longest substep that resolves how springs swing.
+    """
 
     max_overlap: cython.double
     entry: cython.double
     slop: cython.double
-    bias_rate: cython.double
-    joint_bias_rate: cython.double
     preload: cython.double
     closed: cython.double
     touch: cython.double
     impact_depth: cython.double
-    offset_step: cython.double
-    braking_turn: cython.double
-    growth: cython.double
-    linger: cython.int
-    slack: cython.double
-    rope_tolerance: cython.double
-    stretch: cython.double
-    joint_tolerance: cython.double
-    push_depth: cython.double  # of an iteration
-    push_room: cython.double
-    overload: cython.double
-    load_growth: cython.double
-    load_decay: cython.double
-    iteration_factor: cython.int
-    iterations: cython.int
-    iterations_unequal: cython.int
-    iterations_ties: cython.int
-    spring_step: cython.double
     grazing_depth: cython.double
     seam_depth: cython.double
+    stretch: cython.double
+    joint_tolerance: cython.double
+    braking_turn: cython.double
+    push_depth: cython.double
+    push_room: cython.double
+    overload: cython.double
+    spring_step: cython.double
 
-    def __init__(self, numbers: dict[str, Any]) -> None:
-        """Take the numbers by name."""
-        n = numbers
-        self.max_overlap, self.entry, self.slop = n["max_overlap"], n["entry"], n["slop"]
-        self.bias_rate, self.joint_bias_rate = n["bias_rate"], n["joint_bias_rate"]
-        self.preload, self.closed, self.touch = n["preload"], n["closed"], n["touch"]
-        self.impact_depth, self.grazing_depth = n["impact_depth"], n["grazing_depth"]
-        self.seam_depth, self.offset_step, self.braking_turn = (
-            n["seam_depth"],
-            n["offset_step"],
-            n["braking_turn"],
+    def __init__(self, max_overlap: float, thinnest: float, spring_step: float) -> None:
+        """Take the overlap that is allowed, how thin the thinnest body is, and `spring_step`."""
+        self.max_overlap, self.spring_step = max_overlap, spring_step
+        # A quarter of the overlap allowed is left to the slop and to what the solver leaves over.
+        self.entry = min(0.75 * max_overlap, 0.125 * thinnest)
+        self.slop = min(settings.SLOP, max_overlap / 4, thinnest / 32)
+        self.preload, self.touch = settings.PRELOAD * self.slop, settings.MEETING * self.slop
+        self.impact_depth, self.closed = (
+            settings.IMPACT_DEPTH * self.slop,
+            min(settings.CLOSED, self.touch),
         )
-        self.growth, self.linger, self.slack = n["growth"], n["linger"], n["slack"]
-        self.rope_tolerance, self.joint_tolerance = n["rope_tolerance"], n["joint_tolerance"]
-        self.stretch, self.spring_step = n["stretch"], n["spring_step"]
-        self.push_depth, self.push_room = n["push_depth"], n["push_room"]
-        self.overload, self.load_growth = n["overload"], n["load_growth"]
-        self.load_decay, self.iteration_factor = n["load_decay"], n["iteration_factor"]
-        self.iterations, self.iterations_ties = n["iterations"], n["iterations_ties"]
-        self.iterations_unequal = n["iterations_unequal"]
+        self.grazing_depth = min(settings.SLOP, thinnest / 32)
+        self.seam_depth = min(settings.SEAM_DEPTH * max_overlap, thinnest / 2)
+        self.stretch = settings.STRETCH * self.entry
+        self.joint_tolerance = settings.JOINT_TOLERANCE * settings.STRETCH * self.entry
+        wide: cython.double = max(1.0, max_overlap / settings.DEFAULT_OVERLAP)
+        self.braking_turn = settings.BRAKING_TURN * max_overlap * wide
+        self.push_depth, self.push_room = (
+            settings.PUSH_DEPTH * max_overlap,
+            settings.PUSH_ROOM * max_overlap,
+        )
+        self.overload = settings.OVERLOAD * self.entry
+
+    def seams(self) -> float:
+        """Return how deep in a wall a corner may be that is put back out of it, metres."""
+        return self.seam_depth
 
 
 @cython.final
@@ -162,11 +159,11 @@ class Island:
                 strongest = max(strongest, body.strength)
                 push = max(push, body.strength / body.mass)
         push = max(push, strongest / lightest)
-        self.iterations = accuracy.iterations
+        self.iterations = settings.ITERATIONS
         if heaviest > 3 * lightest:
-            self.iterations = accuracy.iterations_unequal
+            self.iterations = settings.ITERATIONS_UNEQUAL
         if self.ties:
-            self.iterations = accuracy.iterations_ties
+            self.iterations = settings.ITERATIONS_JOINTS
         self.push_step = 1e300
         if push > 0.0:
             self.push_step = sqrt(accuracy.push_depth * self.iterations / push)
@@ -198,11 +195,11 @@ class Island:
         if self.deepest > accuracy.overload:
             # What turns fast gets deeper again and again before the engine has corrected it.
             self.solver.hurries = self.tries >= STUCK
-            self.load = min(accuracy.load_growth * self.load, self.most_load)
+            self.load = min(settings.LOAD_GROWTH * self.load, self.most_load)
             # If the solver goes round in a circle it ends elsewhere in it each time.
             self.tries = min(self.tries + 1, 64)
         else:
-            self.load = max(accuracy.load_decay * self.load, self.least_load)
+            self.load = max(settings.LOAD_DECAY * self.load, self.least_load)
             self.tries = 0
         self.set_iterations()
 
@@ -211,7 +208,7 @@ class Island:
         """Let the solver have more iterations while it has to try harder."""
         count: cython.int = self.iterations
         if self.tries > 0:
-            count = count * self.accuracy.iteration_factor + 2 * self.tries
+            count = count * settings.ITERATION_FACTOR + 2 * self.tries
         chipmunk.set_iterations(self.solver.space, count)
 
     @cython.cfunc
@@ -276,8 +273,6 @@ class Island:
             solver = Solver(
                 self.accuracy.slop,
                 self.accuracy.seam_depth,
-                self.accuracy.bias_rate,
-                self.accuracy.joint_bias_rate,
                 self.surfaces,
             )
             self.solvers.append(solver)
@@ -324,7 +319,7 @@ class Island:
                 if not self.solved:
                     self.commit()
                 self.find_flush()
-                self.solver.go(h, self.accuracy.growth)
+                self.solver.go(h)
                 settle(self.solver, self.numbers, self.impact, h)
                 for body in self.bodies:
                     self.take(body, h)
@@ -436,7 +431,7 @@ class Island:
         tie: Tie
         for tie in self.ties:
             tie.measure()
-            if tie.holds(accuracy.rope_tolerance):
+            if tie.holds():
                 tie.a.touches = tie.b.touches = True
         h: cython.double = self.contact_limit(left)
         for body in self.bodies:
@@ -447,12 +442,7 @@ class Island:
         for pair in self.pairs:
             h = pair.time_to_touch(h, self.depth_of(pair))
         for tie in self.ties:
-            h = min(
-                h,
-                tie.time_to_jerk(
-                    accuracy.stretch, accuracy.joint_tolerance, accuracy.rope_tolerance
-                ),
-            )
+            h = min(h, tie.time_to_jerk(accuracy.stretch, accuracy.joint_tolerance))
         return left / ceil(left / h - 1e-9)  # equal substeps settle best, and leave no sliver
 
     @cython.cfunc
@@ -488,7 +478,7 @@ class Island:
             body.slips = body.slips or body.touches
             # Where others touch, a robot that has just lost touch stays with them for a while, and
             # so does one at a rope that has just gone slack.
-            lately: cython.bint = self.any_touch and body.since <= accuracy.linger
+            lately: cython.bint = self.any_touch and body.since <= settings.LINGER
             lately = lately or len(self.ties) > 0
             body.solved = body.touches or (
                 body.is_robot and body.slips and (body.com != 0.0 or lately)
@@ -499,20 +489,20 @@ class Island:
         self.set_contact_step()
         h = min(h, self.contact_step)
         if self.solved:
-            h = min(h, accuracy.growth * self.solver.last_step)
+            h = min(h, settings.GROWTH * self.solver.last_step)
         if self.any_touch and (not self.solved or self.solver.last_step >= 1e300):
             # A solver that knows no impulses yet does not settle a file that begins to push.
             h = min(h, self.contact_step / (self.most_load * self.most_load))
         for body in self.bodies:
             if body.solved and body.limited and not body.touches:
-                h = min(h, accuracy.offset_step)
-            if body.is_robot and body.solved and body.since > accuracy.linger:
+                h = min(h, settings.OFFSET_STEP)
+            if body.is_robot and body.solved and body.since > settings.LINGER:
                 h = min(h, body.time_to_brake(accuracy.braking_turn))
             if body.touches and body.slows > 0.0 and self.push_step >= 1e300:
                 # Where no drive pushes it on the floor stops it: there the substep ends.
                 stop: cython.double = length(body.vx, body.vy) / body.slows
                 if 0.0 < stop < h:
-                    h = max(stop, min(h, accuracy.offset_step))
+                    h = max(stop, min(h, settings.OFFSET_STEP))
         self.any_solved = False
         for body in self.bodies:
             if body.solved and not body.touches:
@@ -536,7 +526,7 @@ class Island:
                 body.since, body.holds = 0, True
                 continue
             body.since = min(body.since + 1, 1 << 20)
-            body.holds = body.follows() and brief and body.since <= self.accuracy.linger
+            body.holds = body.follows() and brief and body.since <= settings.LINGER
             predict(body, h, self.glide, self.thrust)
 
     @cython.cfunc

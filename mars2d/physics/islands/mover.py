@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from mars2d.physics.islands import settings
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
@@ -64,7 +65,7 @@ class Mover:
         self.taken, self.spare, self.solvers, self.islands = [], [], [], []
         body: Body
         for body in bodies:
-            body.slack = accuracy.slack
+            body.slack = settings.SLACK
 
     # -- a control step -----------------------------------------------------------------------
 
@@ -184,7 +185,7 @@ class Mover:
             if body.near:
                 home = root(body)
                 # A spring may move what is at rest.
-                thrown: cython.double = (body.slack - self.accuracy.slack) * 0.01
+                thrown: cython.double = (body.slack - settings.SLACK) * 0.01
                 home.fastest = max(home.fastest, body.slack * body.speed * duration + thrown)
         for body in self.bodies:
             if body.near:
@@ -351,7 +352,7 @@ class Mover:
         if body.solver is not None:
             solver = body.solver
             solver.leave(body)
-        body.slack, body.load = self.accuracy.slack, 1.0
+        body.slack, body.load = settings.SLACK, 1.0
         body.since = 1 << 20
         predict(body, duration, self.glide, self.thrust)
         body.advance(duration)

@@ -11,17 +11,9 @@ Ericson, Real-Time Collision Detection, section 9.5.1 (2005).
 
 from __future__ import annotations
 
-from mars2d.physics.islands import chipmunk
+from mars2d.physics.islands import chipmunk, library
 from mars2d.physics.islands import shadow as cython
-from mars2d.physics.islands.library import (
-    SEWN,
-    Arbiter,
-    Handle,
-    Vector,
-    address_of,
-    callback,
-    thing_at,
-)
+from mars2d.physics.islands.library import Arbiter, Handle, Vector
 
 STRAIGHT = 1e-9
 """The sine up to which a contact's normal stands upright on a wall."""
@@ -182,14 +174,14 @@ class Seams:
 @cython.cfunc
 def sew(segment: Handle, seams: Seams) -> cython.void:
     """Let contacts with a wall be corrected at its seams."""
-    chipmunk.set_data(segment, address_of(seams))
-    chipmunk.set_type(segment, SEWN)
+    chipmunk.set_data(segment, library.address_of(seams))
+    chipmunk.set_type(segment, library.SEWN)
 
 
 @cython.cfunc
-@callback("void(cpArbiter *, cpSpace *, void *)")
+@library.callback("void(cpArbiter *, cpSpace *, void *)")
 def correct_contact(arbiter: Arbiter, _space: Handle, _data: Handle) -> cython.void:
     """Let the seams of a wall correct a contact with it before it is solved."""
     is_first: cython.bint = chipmunk.first_of(arbiter) < 0
-    seams: Seams = thing_at(chipmunk.data_of(chipmunk.shape_of(arbiter, not is_first)))
+    seams: Seams = library.thing_at(chipmunk.data_of(chipmunk.shape_of(arbiter, not is_first)))
     seams.correct(arbiter, is_first)

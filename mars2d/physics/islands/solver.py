@@ -4,26 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from mars2d.physics.islands import chipmunk
+from mars2d.physics.islands import chipmunk, library, settings
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import cosine_sine, decay_base, exponential, length
 from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.floor import hold
 from mars2d.physics.islands.flush import Flush, join, lay, show, straighten_contact
-from mars2d.physics.islands.library import (
-    GEAR,
-    GROOVE,
-    JOINED,
-    PIVOT,
-    ROTARY_LIMIT,
-    ROTARY_SPRING,
-    SEWN,
-    Arbiters,
-    Handle,
-    Vector,
-    handle_contacts,
-    watch_contacts,
-)
+from mars2d.physics.islands.library import Arbiters, Handle, Vector
 from mars2d.physics.islands.pair import Wall
 from mars2d.physics.islands.piece import Piece
 from mars2d.physics.islands.seams import correct_contact, sew
@@ -59,8 +46,6 @@ class Solver:
     used: cython.bint  # in this control step
     idle: cython.bint  # whether it waits for an island
     stale: cython.bint  # whether bodies have moved without it since its last step
-    bias_rate: cython.double
-    joint_bias_rate: cython.double
     bias_base: cython.double  # e to the power of minus the rate
     joint_bias_base: cython.double
     hurries: cython.bint  # whether overlaps are to go as fast as what joints are off by
@@ -70,25 +55,21 @@ class Solver:
     surfaces: object  # kept for the space, which knows its address
     room: cython.double
 
-    def __init__(
-        self, slop: float, room: float, bias_rate: float, joint_bias_rate: float, surfaces: Any
-    ) -> None:
+    def __init__(self, slop: float, room: float, surfaces: Any) -> None:
         """Make an empty one.
 
         slop: the overlap that is left in steady contact, metres. room: up to which a step
-        between faces is not felt. bias_rate, joint_bias_rate: how what is beyond decays, and what
-        joints are off by, 1/s. surfaces: what settles friction and restitution; None: they are
+        between faces is not felt. surfaces: what settles friction and restitution; None: they are
         products.
         """
         self.space, self.room = chipmunk.new_space(slop), room
-        handle_contacts(self.space, SEWN, correct_contact)
-        handle_contacts(self.space, JOINED, straighten_contact)
-        self.bias_rate, self.joint_bias_rate = bias_rate, joint_bias_rate
-        self.bias_base = exponential(-bias_rate)
-        self.joint_bias_base = exponential(-joint_bias_rate)
+        library.handle_contacts(self.space, library.SEWN, correct_contact)
+        library.handle_contacts(self.space, library.JOINED, straighten_contact)
+        self.bias_base = exponential(-settings.BIAS_RATE)
+        self.joint_bias_base = exponential(-settings.JOINT_BIAS_RATE)
         self.surfaces = surfaces
         if surfaces is not None:
-            watch_contacts(self.space, settle_contact, surfaces)
+            library.watch_contacts(self.space, settle_contact, surfaces)
         self.bodies, self.walls, self.ties = [], {}, []
         self.arbiters = Arbiters()
         self.last_step = 1e300
@@ -143,19 +124,21 @@ class Solver:
         """Make the joints of a body start again: they make it move as its holder does."""
         if body.wheeled:  # grooves are free along
             body.pivot = chipmunk.make_joint(
-                GROOVE, body.pivot, holder, body.handle, ENDS, 0.0, 1.0, 0.0
+                library.GROOVE, body.pivot, holder, body.handle, ENDS, 0.0, 1.0, 0.0
             )
             body.side = chipmunk.make_joint(
-                GROOVE, body.side, holder, body.handle, ENDS, 1.0, 0.0, 0.0
+                library.GROOVE, body.side, holder, body.handle, ENDS, 1.0, 0.0, 0.0
             )
             chipmunk.set_joint(body.side, 0.0, True)
             chipmunk.set_max_bias(body.side, 0.0)
             body.traction_ahead = body.traction_across = 0.0
         else:
             body.pivot = chipmunk.make_joint(
-                PIVOT, body.pivot, holder, body.handle, ENDS, 0.0, 0.0, 0.0
+                library.PIVOT, body.pivot, holder, body.handle, ENDS, 0.0, 0.0, 0.0
             )
-        body.gear = chipmunk.make_joint(GEAR, body.gear, holder, body.handle, ENDS, 0.0, 1.0, 0.0)
+        body.gear = chipmunk.make_joint(
+            library.GEAR, body.gear, holder, body.handle, ENDS, 0.0, 1.0, 0.0
+        )
         chipmunk.set_joint(body.pivot, 0.0, True)  # powers of 0 are the same everywhere
         chipmunk.set_joint(body.gear, 0.0, True)
         chipmunk.set_max_bias(body.pivot, 0.0)  # they never draw bodies together
@@ -249,7 +232,9 @@ class Solver:
     def make_parts(self, tie: Tie) -> cython.void:
         """Make the parts of a joint start again."""
         if self.joint_bias == 0.0 and self.last_step < 1e300:
-            self.joint_bias = decay_base(self.joint_bias_rate, self.joint_bias_base, self.last_step)
+            self.joint_bias = decay_base(
+                settings.JOINT_BIAS_RATE, self.joint_bias_base, self.last_step
+            )
         k: cython.int
         a: Handle = tie.a.handle
         b: Handle = chipmunk.ground_of(self.space) if tie.to_world else tie.b.handle
@@ -266,7 +251,7 @@ class Solver:
             part.handle = chipmunk.make_joint(kind, part.handle, first, second, ends, p, q, r)
             chipmunk.set_joint(
                 part.handle,
-                0.0 if kind == ROTARY_LIMIT else self.joint_bias,
+                0.0 if kind == library.ROTARY_LIMIT else self.joint_bias,
                 not tie.pinned,
             )
             if tie.is_rope and k == 0:
@@ -293,7 +278,7 @@ class Solver:
         part: Held
         most: cython.double = 0.0
         for k in range(len(tie.parts)):
-            if tie.parts[k][0] != ROTARY_LIMIT and tie.parts[k][0] != ROTARY_SPRING:
+            if tie.parts[k][0] != library.ROTARY_LIMIT and tie.parts[k][0] != library.ROTARY_SPRING:
                 part = tie.joints[k]
                 most = max(most, chipmunk.used_of(part.handle))
         return most
@@ -318,7 +303,7 @@ class Solver:
         k: cython.int
         part: Held
         for k in range(len(tie.parts)):
-            if tie.parts[k][0] == ROTARY_LIMIT:
+            if tie.parts[k][0] == library.ROTARY_LIMIT:
                 part = tie.joints[k]
                 chipmunk.set_limits(part.handle, least, largest)
                 chipmunk.set_max_bias(part.handle, speed)
@@ -341,9 +326,9 @@ class Solver:
         if h != self.last_step or self.hurries != self.hurried:
             self.last_step, self.hurried, self.joint_bias = h, self.hurries, 0.0
             if self.hurries:
-                self.bias = decay_base(self.joint_bias_rate, self.joint_bias_base, h)
+                self.bias = decay_base(settings.JOINT_BIAS_RATE, self.joint_bias_base, h)
             else:
-                self.bias = decay_base(self.bias_rate, self.bias_base, h)
+                self.bias = decay_base(settings.BIAS_RATE, self.bias_base, h)
         if ratio != 1.0:
             for k in range(self.find_contacts()):
                 chipmunk.scale(self.arbiters.at(k), ratio)
@@ -388,7 +373,7 @@ class Solver:
                 self.renew(body)
 
     @cython.cfunc
-    def go(self, h: cython.double, growth: cython.double) -> cython.void:
+    def go(self, h: cython.double) -> cython.void:
         """Step by h seconds, with all bodies moving as they are aimed, and read the result.
 
         `settle` and `share_out` do the rest.
@@ -403,7 +388,7 @@ class Solver:
         for body in self.bodies:
             if body.is_robot and body.engaged and not body.holds:
                 self.disengage(body)
-        if solved and growth * h < self.last_step:
+        if solved and settings.GROWTH * h < self.last_step:
             for body in self.bodies:
                 if body.solved and body.engaged:
                     self.renew(body)
@@ -444,10 +429,12 @@ class Solver:
     @cython.cfunc
     def take_reaction(self, body: Body) -> cython.void:
         """Find the impulse on a body of its drive, or of the floor under it."""
-        reaction: Vector = chipmunk.reaction_of(body.pivot, GROOVE if body.wheeled else PIVOT)
+        reaction: Vector = chipmunk.reaction_of(
+            body.pivot, library.GROOVE if body.wheeled else library.PIVOT
+        )
         body.reaction_x, body.reaction_y = reaction.x, reaction.y
         if body.wheeled:
-            reaction = chipmunk.reaction_of(body.side, GROOVE)
+            reaction = chipmunk.reaction_of(body.side, library.GROOVE)
             body.reaction_x, body.reaction_y = (
                 body.reaction_x + reaction.x,
                 body.reaction_y + reaction.y,
@@ -598,7 +585,7 @@ class Solver:
 
         That is where it has pushed in the step before, or where its command is.
         """
-        reaction: Vector = chipmunk.reaction_of(body.pivot, PIVOT)
+        reaction: Vector = chipmunk.reaction_of(body.pivot, library.PIVOT)
         if length(reaction.x, reaction.y) > 1e-9 * body.strength * h:
             body.set_bound(reaction.x, reaction.y, body.angle, body.vx, body.vy)
         else:

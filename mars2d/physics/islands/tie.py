@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import sqrt
 from typing import Any
 
+from mars2d.physics.islands import settings
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import cosine_sine, length
 from mars2d.physics.islands.body import Body
@@ -106,14 +107,12 @@ class Tie:
         return self.slack <= way
 
     @cython.cfunc
-    def holds(self, tolerance: cython.double) -> cython.bint:
-        """Return whether it holds its bodies now; tolerance: the slack of a straight rope, m."""
-        return self.always or self.slack <= tolerance
+    def holds(self) -> cython.bint:
+        """Return whether it holds its bodies now."""
+        return self.always or self.slack <= settings.ROPE_TOLERANCE
 
     @cython.cfunc
-    def time_to_jerk(
-        self, stretch: cython.double, play: cython.double, tolerance: cython.double
-    ) -> cython.double:
+    def time_to_jerk(self, stretch: cython.double, play: cython.double) -> cython.double:
         """Return how long a substep may be, seconds.
 
         Until then no rope gets longer by more than `stretch` metres, and no joint is pulled apart
@@ -140,7 +139,7 @@ class Tie:
             room: cython.double = max(self.slack + stretch, stretch / 64)
             rate: cython.double = max(along, 0.0)
             h = 2 * room / (rate + sqrt(rate * rate + 2 * turn * room) + 1e-12)
-        if self.slack <= tolerance and self.rigid:
+        if self.slack <= settings.ROPE_TOLERANCE and self.rigid:
             # The ends of a hinge may part in any direction at the start, those of a rod along it.
             speed: cython.double = 0.0
             if self.length <= 0:

@@ -29,7 +29,7 @@ import numpy as np
 
 from mars2d.core.errors import Mars2dError
 from mars2d.core.hints import described
-from mars2d.core.usercode import stack_of, users_line
+from mars2d.core.usercode import users_line
 from mars2d.scenario.code_file import law_in
 from mars2d.tournaments.isolation import jail
 from mars2d.tournaments.isolation.limits import MB, Limits
@@ -159,7 +159,8 @@ def _shut_in(briefing: Briefing) -> None:
 
 def _fault(kind: str, error: BaseException, most: int) -> dict[str, Any]:
     """Return what is told of an exception from loading or calling the law; most: its output."""
-    place, text = users_line(stack_of(error)), f"raised {described(error)}"
+    place = users_line(traceback.extract_tb(error.__traceback__))
+    text = f"raised {described(error)}"
     if isinstance(error, Mars2dError):
         place, text = error.where or place, str(error.args[0])
     causes = (error, error.__cause__)

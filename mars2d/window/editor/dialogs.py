@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
-from typing import Literal
+from typing import Literal, NamedTuple
 
-import pygame
-
-from mars2d.core.errors import InputError
+from mars2d.core.errors import InputError, Mars2dError
 from mars2d.scenario.changes import check_same
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.editor.chrome import Answer, Prompt
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.document import Document
 from mars2d.window.editor.verdict import Judge
+from mars2d.window.widgets.menu import Entry, Menu
 from mars2d.window.widgets.text_field import TextField
 
 
@@ -25,6 +24,42 @@ class Outcome:
 
     scenario: Scenario
     when: Literal["now", "start"]
+
+
+class Answer(NamedTuple):
+    """A way to answer a prompt, by Enter, a click, or a key of its own.
+
+    act: takes the text that was typed; if it raises Mars2dError, the error is shown and the prompt
+    stays open.
+    """
+
+    words: str
+    act: Callable[[str], None] = lambda _: None
+    key: str = ""
+
+
+@dataclass
+class Prompt:
+    """A question over which nothing else can be done.
+
+    field: to type in, if there is one. doc: says more about it. fault: an error, and the text that
+    it is about.
+    """
+
+    label: str
+    field: TextField | None
+    doc: str
+    fault: tuple[str, str] = "", ""
+
+    @property
+    def text(self) -> str:
+        """What was typed so far."""
+        return "" if self.field is None else self.field.text
+
+    @property
+    def error(self) -> str:
+        """Why what was typed can't be taken, "" if it has not been refused."""
+        return self.fault[0] if self.fault[1] == self.text else ""
 
 
 class Dialogs:
@@ -38,6 +73,7 @@ class Dialogs:
     def __init__(
         self,
         desk: Desk,
+        menu: Menu,
         document: Document,
         judge: Judge,
         before: Scenario,
@@ -50,14 +86,41 @@ class Dialogs:
         self.done = False
         self.outcome: Outcome | None = None
         self.to_run: Path | None = None
-        self._desk, self._document, self._judge = desk, document, judge
+        self._desk, self._menu, self._document, self._judge = desk, menu, document, judge
         self._before, self._live, self._complete = before, live, complete
 
-    def handle(self, prompt: Prompt, event: pygame.Event) -> None:
-        """Give an event to a prompt; close it when it is answered, unless that opens another."""
-        prompt.handle(event)
-        if not prompt.open and self.prompt is prompt:
+    def ask(
+        self,
+        label: str,
+        *answers: Answer,
+        field: TextField | None = None,
+        doc: str = "",
+        escape: str = "cancel",
+    ) -> None:
+        """Open a prompt, of which Enter gives the first answer; escape: what Esc does, in words."""
+        self._show(Prompt(label, field, doc), [*answers, Answer(escape, key="Esc")])
+
+    def _show(self, prompt: Prompt, answers: Sequence[Answer]) -> None:
+        self.prompt = prompt
+
+        def answer(chosen: Answer) -> None:
             self.prompt = None
+            try:
+                chosen.act(prompt.text)
+            except Mars2dError as error:
+                prompt.fault = str(error), prompt.text
+                self._show(prompt, answers)
+
+        def entries() -> list[Entry]:
+            tone = "warning" if prompt.error else "note"
+            told = [Entry(prompt.error or prompt.doc, tone=tone)] if prompt.field else []
+            ways = [
+                Entry(each.words, partial(answer, each), each.key, value="Enter" * (not each.key))
+                for each in answers
+            ]
+            return [Entry(prompt.label, field=prompt.field), *told, *ways]
+
+        self._menu.open("prompt", entries, (0, 0), asks=True)
 
     def _valid(self, doing: str) -> Scenario | None:
         """Return the scenario; show why there is none if the draft is not valid."""
@@ -74,10 +137,11 @@ class Dialogs:
         if self._valid("Not saved") is None:
             return
         if self._document.path is None:
-            self.prompt = Prompt(
+            self.ask(
                 "Save as",
-                Answer("Enter", "save", lambda text: self._save_as(text, then)),
+                Answer("save", lambda text: self._save_as(text, then)),
                 field=TextField(self._document.proposal, opened_by_key=True),
+                doc="a scenario file, in TOML",
             )
         elif self._document.new:
             self._save_as(str(self._document.path), then)
@@ -89,9 +153,9 @@ class Dialogs:
         if not self._document.is_another(path):
             self._write(path, then)
             return
-        self.prompt = Prompt(
+        self.ask(
             f"{path} is there already.",
-            Answer("Enter", "overwrite it", lambda _: self._write(path, then)),
+            Answer("overwrite it", lambda _: self._write(path, then)),
         )
 
     def _write(self, path: Path, then: Callable[[], None] | None = None) -> None:
@@ -150,14 +214,14 @@ class Dialogs:
         if not self._desk.history.changed:
             self._discard()
             return
-        discard = Answer("Backspace", "discard", lambda _: self._discard())
+        discard = Answer("discard", lambda _: self._discard(), "Backspace")
         if self._live:
-            now = Answer("Enter", "from now", lambda _: self.apply("now"))
-            anew = Answer("Shift Enter", "from the start", lambda _: self.apply("start"))
-            self.prompt = Prompt("Use what was drawn?", now, anew, discard, escape="stay")
+            now = Answer("from now", lambda _: self.apply("now"))
+            anew = Answer("from the start", lambda _: self.apply("start"), "Shift Enter")
+            self.ask("Use what was drawn?", now, anew, discard, escape="stay")
         else:
-            save = Answer("Enter", "save", lambda _: self.save(then=self._discard))
-            self.prompt = Prompt("Not saved yet.", save, discard, escape="stay")
+            save = Answer("save", lambda _: self.save(then=self._discard))
+            self.ask("Not saved yet.", save, discard, escape="stay")
 
     def _discard(self) -> None:
         self.done = True

@@ -21,11 +21,11 @@ from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.stage import Stage
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor.actions import TOOLS, actions_of
-from mars2d.window.editor.chrome import Answer, Header, Prompt
 from mars2d.window.editor.desk import Desk
-from mars2d.window.editor.dialogs import Dialogs
+from mars2d.window.editor.dialogs import Answer, Dialogs
 from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft
+from mars2d.window.editor.header import Header
 from mars2d.window.editor.item import Item
 from mars2d.window.editor.properties import Properties
 from mars2d.window.editor.readout import minus
@@ -57,11 +57,6 @@ window that it leaves to the drawing."""
 PANEL_HINT = "Arrows choose a row and change its number, Enter opens it, Esc leaves the panel"
 STEP = 16.0
 """The height of the line below them, with the step of the grid, points."""
-ASKED = frozenset({
-    pygame.KEYDOWN, pygame.TEXTINPUT, pygame.TEXTEDITING, pygame.MOUSEBUTTONDOWN,
-    pygame.MOUSEWHEEL,
-})  # fmt: skip
-"""The events that are for a prompt alone."""
 LAYERS = Layers(trails=False, sensors=False, messages=False)
 MAX_NAMED = 40
 """With more robots and props than this, names are hidden at first."""
@@ -98,11 +93,11 @@ class Editor:
         if changed:
             self.desk.history.saved = None
         self.judge = Judge(draft)
+        self.menu, self.panel = Menu(), Menu(docked=True)
         self.dialogs = Dialogs(
-            self.desk, self.document, self.judge, scenario,
+            self.desk, self.menu, self.document, self.judge, scenario,
             live=live, complete=self._complete,
         )  # fmt: skip
-        self.menu, self.panel = Menu(), Menu(docked=True)
         self.properties = Properties(
             self.desk, self.dialogs, self.document, self.menu, self.panel,
             self.choose, self._tie, self._touch,
@@ -120,7 +115,7 @@ class Editor:
         tools = [self.groups["Tools"], [self._actions["snap"]]]
         self._toolbar = Buttons(tools, side=SIDE, lettered=True)
         in_header = [self._actions[name] for name in HEADER if name in self._actions]
-        self._header = Header(painter, in_header)
+        self._header = Header([in_header])
 
     @property
     def title(self) -> str:
@@ -142,10 +137,7 @@ class Editor:
             self.desk.say(str(error), warns=True)
 
     def _take(self, event: pygame.Event) -> None:
-        prompt = self.dialogs.prompt
-        if prompt is not None:
-            self.dialogs.handle(prompt, event)
-        if (prompt is not None and event.type in ASKED) or self.menu.handle(event):
+        if self.menu.handle(event):
             pass
         elif event.type == pygame.KEYDOWN:
             if not self.panel.handle(event):
@@ -196,10 +188,12 @@ class Editor:
             self.help.close()
             return
         self._pointer = event.pos
+        self.desk.say("")
         if self.panel.plate.collidepoint(event.pos):
-            self.desk.say("")
             self.panel.handle(event)
-        elif event.button == pygame.BUTTON_LEFT:
+        elif self._toolbar.handle(event) or self._header.handle(event):
+            pass
+        elif event.button == pygame.BUTTON_LEFT and self.layout.plot.collidepoint(event.pos):
             self._press_left(event.pos)
         elif event.button == pygame.BUTTON_MIDDLE:
             self._panning = True
@@ -207,17 +201,11 @@ class Editor:
             self.tool.cancel()
 
     def _press_left(self, pixel: tuple[int, int]) -> None:
-        button = self._actions.get(self._toolbar.at(pixel) or self._header.at(pixel) or "")
-        if button is not None and button.act is not None:
-            self.desk.say("")
-            button.act()
-        elif self.layout.plot.collidepoint(pixel):
-            if pygame.K_SPACE in self._held:
-                self._panning = True
-                return
-            self.desk.say("")
-            self._dragging, self.panel.focused = True, False
-            self.tool.press(self._world(pixel), shift=self._shift)
+        if pygame.K_SPACE in self._held:
+            self._panning = True
+            return
+        self._dragging, self.panel.focused = True, False
+        self.tool.press(self._world(pixel), shift=self._shift)
 
     def _move(self, event: pygame.Event) -> None:
         self._pointer = event.pos
@@ -298,8 +286,8 @@ class Editor:
         if self.tool_name == "select" and not self.desk.selection:
             self.desk.say("select something first, or choose a tool that places items", warns=True)
             return
-        enter = Answer("Enter", "apply", self._put)
-        self.dialogs.prompt = Prompt(
+        enter = Answer("apply", self._put)
+        self.dialogs.ask(
             "x y [degrees] =",
             enter,
             field=TextField(opened_by_key=True),
@@ -338,8 +326,9 @@ class Editor:
 
     def zoom(self, notches: float) -> None:
         """Zoom about the pointer, or else about the middle, by notches of the wheel."""
-        pixel = self._pointer if self._pointer[0] >= 0 else self.layout.plot.center
-        self.viewpoint.zoom(notches, pixel)
+        plot = self.layout.plot
+        there = plot.collidepoint(self._pointer)
+        self.viewpoint.zoom(notches, self._pointer if there else plot.center)
 
     def _laid_out(self, size: tuple[int, int]) -> Layout:
         layout = self.looks.layout(size)
@@ -385,11 +374,8 @@ class Editor:
         self._draw_tools(surface, side)
         right = pygame.Rect(plot.right, plot.top, surface.get_width() - plot.right, plot.height)
         self.panel.draw(surface, right, self.painter)
-        self._header.draw(surface, bar, self.title, self._note(), self._pointer)
-        if self.dialogs.prompt is None:
-            self._draw_foot(surface)
-        else:
-            self.dialogs.prompt.draw(surface, self.layout, self.painter)
+        self._header.draw_bar(surface, bar, self.painter, self.title, self._note(), self._pointer)
+        self._draw_foot(surface)
         if not (self._dragging or self.help.is_open):
             self._toolbar.draw_tip(surface, self.painter, self._pointer)
         self.menu.draw(surface, surface.get_rect(), self.painter)

@@ -25,9 +25,8 @@ from mars2d.scenario.registry import members
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
-from mars2d.window.editor.chrome import Answer, Prompt
 from mars2d.window.editor.desk import Desk
-from mars2d.window.editor.dialogs import Dialogs
+from mars2d.window.editor.dialogs import Answer, Dialogs
 from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.item import Item
@@ -320,7 +319,7 @@ class Properties:
 
         field = TextField(text)
         field.select_all()
-        self._dialogs.prompt = Prompt(label, Answer("Enter", "apply", answer), field=field, doc=doc)
+        self._dialogs.ask(label, Answer("apply", answer), field=field, doc=doc)
 
     def _step(self, subject: Subject, name: str, way: int) -> None:
         """Change a number by half a power of ten that fits it."""

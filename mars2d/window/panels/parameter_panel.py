@@ -107,6 +107,11 @@ class ParameterPanel(RowsPanel):
         self._anew = ""  # why it needs a new start
         self._next = self._clicked = 0.0  # when it may be set; when the last click was
 
+    @property
+    def offered(self) -> bool:
+        """Whether the run can be changed."""
+        return isinstance(self._player.source, Timeline)
+
     # -- what there is ------------------------------------------------------------------------
 
     def parameters(self) -> dict[str, Parameter]:

@@ -38,6 +38,7 @@ from mars2d.window.widgets.plot import (
     limits_of,
     polylines,
 )
+from mars2d.window.widgets.words import GAP as WORD_GAP
 from mars2d.window.widgets.words import Word, write_line
 from mars2d.world.record import Record
 
@@ -348,52 +349,36 @@ class Scopes(Panel):
         if plot.limits.start <= frame.time <= plot.limits.end:
             ((x, _),) = plot.limits.pixels(area, np.array([frame.time]), np.zeros(1)).tolist()
             surface.fill(theme.selected, (round(x), area.top, max(1, round(ui)), area.height))
-        head = TITLE / 2 + (LINE if plot.below else 0)
-        middle = area.top - round(head * ui)
-        x = self._place.left
-        right = plot.remove.left + self._place.left - round(4 * ui)
-        unit = f" [{signal.unit}]" if signal.unit else ""
-        place = self.painter.write(
-            surface, f"{signal.name}{unit}", 12 * ui, theme.ink, bold=True, midleft=(x, middle)
-        )
-        x = place.right + round(10 * ui)
-        left = x
+        high, unit = round(LINE * ui), f" [{signal.unit}]" if signal.unit else ""
+        line = pygame.Rect(self._place.left, 0, plot.remove.left - round(4 * ui), high)
+        line.centery = area.top - round((TITLE / 2 + (LINE if plot.below else 0)) * ui)
+        title = Word(f"{signal.name}{unit}", theme.ink, 12, bold=True)
+        free = write_line(surface, line, self.painter, [title])
         if plot.below:
-            left, middle = area.left, middle + round(LINE * ui)
-        self._write_values(surface, plot, values, (left, right), middle)
+            free = pygame.Rect(area.left, line.bottom, line.right - area.left, high)
+        self._write_values(surface, plot, values, free)
 
     def _write_values(
-        self, surface: pygame.Surface, plot: _Plot, values: Float, room: tuple[int, int], y: int
+        self, surface: pygame.Surface, plot: _Plot, values: Float, rect: pygame.Rect
     ) -> None:
         """Write the names and values of curves at the right of some room, as far as they fit."""
-        ui, fonts = self.painter.ui, self.painter.fonts
-        left, right = room
-        if len(plot.names) > NAMED:
-            count = len(plot.names)
-            many = count > CROWD
-            text = f"middle half of {count}" if many else f"{count} curves"
-            line = pygame.Rect(left, y - 8, max(right - left, 0), 16)
-            own = [
-                Word(f"{plot.names[k]} {as_number(float(values[k]))}", plot.colors[k], 12)
-                for k in (self._single(plot.signal) if many else ())
-            ]
-            write_line(surface, line, self.painter, [Word(text, self.painter.theme.muted, 12)], own)
-            return
-        numbers = [as_number(float(value)) for value in values]
+        numbers, count = [as_number(float(value)) for value in values], len(plot.names)
         both = [f"{name} {one}".strip() for name, one in zip(plot.names, numbers, strict=True)]
-        gap = round(9 * ui)
-        short = (numbers, plot.names) if plot.signal.bodies else (plot.names, numbers)
-        for words in (both, *short):
-            widths = [fonts.width(word, 12 * ui) + gap for word in words]
-            if left + sum(widths) <= right:
-                break
-        else:
+        if count > NAMED:
+            text = f"middle half of {count}" if count > CROWD else f"{count} curves"
+            single = self._single(plot.signal) if count > CROWD else ()
+            own = [Word(both[k], plot.colors[k], 12) for k in single]
+            muted = Word(text, self.painter.theme.muted, 12)
+            write_line(surface, rect, self.painter, [muted], own)
             return
-        x = right - sum(widths)
-        for word, width, color in zip(words, widths, plot.colors, strict=True):
-            image = fonts.render(word, 12 * ui, color)
-            surface.blit(image, image.get_rect(midright=(x + width, y)))
-            x += width
+        short = (numbers, plot.names) if plot.signal.bodies else (plot.names, numbers)
+        size, gap = 12 * self.painter.ui, round(WORD_GAP * self.painter.ui)
+        for texts in (both, *short):
+            widths = [self.painter.fonts.width(text, size) + gap for text in texts]
+            if sum(widths) <= rect.width:
+                words = [Word(*each, 12) for each in zip(texts, plot.colors, strict=True)]
+                write_line(surface, rect, self.painter, right=words)
+                return
 
     def _names(self, scenario: Scenario, signal: Signal) -> Sequence[str]:
         """Return the names of the curves; none of a single one that is of all bodies."""

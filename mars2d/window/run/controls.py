@@ -64,13 +64,16 @@ class Controls:
         )  # fmt: skip
 
     def _costs(self) -> str:
-        """Return where the time of a control step goes, and how long a picture takes."""
+        """Return the time that parts of a control step take on average, and the last picture."""
         source = self._player.source
         if not isinstance(source, Timeline) or not source.newest:
             return ""
-        spent = source.world.simulation.seconds.items()
-        step = ", ".join(f"{name} {_short(all_ / source.newest)}" for name, all_ in spent)
-        return f"a step: {step}; a picture: {_short(self._player.drawing)}"
+        spent = source.world.simulation.seconds
+        times = {name: seconds / source.newest for name, seconds in spent.items()}
+        unit, scale, digits = ("ms", 1e3, 1) if sum(times.values()) >= 1e-3 else ("µs", 1e6, 0)
+        times["picture"] = self._player.drawing
+        parts = ", ".join(f"{name} {scale * each:.{digits}f}" for name, each in times.items())
+        return f"{unit}: {parts}"
 
     def time_state(self) -> TimeState:
         """Return the state that the time bar shows."""
@@ -132,11 +135,6 @@ class Controls:
         speed = self.slider.speed_at(pixel[0])
         if speed is not None and speed != self._player.speed:
             self._player.set_speed(speed)
-
-
-def _short(seconds: float) -> str:
-    """Return a short time in words."""
-    return f"{1e3 * seconds:.2g} ms" if seconds >= 1e-3 else f"{1e6 * seconds:.0f} \N{MICRO SIGN}s"
 
 
 def marks_in(timeline: Timeline) -> dict[MarkKind, list[int]]:

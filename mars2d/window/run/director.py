@@ -59,12 +59,16 @@ class Director:
         finally:
             if back or not self._player.playing:  # otherwise time goes on from where it is
                 self._player.settle()
-        self._player.error = None
-        if len(timeline.branches) > branches:
-            self._notes.say("a new branch begins here; B shows what was run before")
+        self._begun(branches)
         if timeline.remark:
             self._notes.say(timeline.remark, "warning")
         return True
+
+    def _begun(self, branches: int) -> None:
+        """Forget an error after a change, and say that a branch begins; branches: before."""
+        self._player.error = None
+        if self.timeline is not None and len(self.timeline.branches) > branches:
+            self._notes.say("a new branch begins here; B shows what was run before")
 
     def step_within(self, way: int) -> None:
         """Show the next moment within a control step, or for -1 the one before."""
@@ -191,11 +195,9 @@ class Director:
             raise
         if reason and not restart:
             return reason
-        self._player.error = None
         if reason or back or not (self._player.playing and timeline.newest):
             self._player.settle()
-        if not reason and len(timeline.branches) > branches:
-            self._notes.say("a new branch begins here; B shows what was run before")
+        self._begun(branches)
         return reason
 
     def remove(self, body: int) -> None:
@@ -297,7 +299,7 @@ class Director:
         """Return the scenario with all bodies at their poses of now."""
         frame = self._player.frame
         try:
-            return with_poses(frame.scenario, np.hstack([frame.pose, frame.prop_pose]))
+            return with_poses(frame.scenario, frame.all_poses)
         except InputError as error:  # bodies of a dense crowd may overlap
             self._notes.say(f"bodies are shown where they were at the start: {error}", "warning")
             return frame.scenario
@@ -309,7 +311,7 @@ class Director:
         of a 0 is 0 again. Where bodies would then overlap, nothing is rounded.
         """
         frame = self._player.frame
-        poses = np.hstack([frame.pose, frame.prop_pose])
+        poses = frame.all_poses
         drawn = np.array([body.pose for body in frame.scenario.bodies]).T
         short = np.where(poses == drawn, poses, np.round(poses, POSE_DIGITS) + 0.0)
         try:

@@ -13,8 +13,8 @@ import pygame
 from mars2d.bodies.rigid import Rigid, Triple
 from mars2d.core.plane import Point
 from mars2d.core.scene import Scene, faded
-from mars2d.output.layers.bodies import draw_prop, draw_robot
-from mars2d.output.layers.forces import FORCE, bounding_circle, in_newtons
+from mars2d.output.layers.bodies import bounding_circle, draw_prop, draw_robot
+from mars2d.output.layers.forces import FORCE, in_newtons
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.theme import LIGHT
 from mars2d.record.frame import Frame
@@ -140,7 +140,7 @@ class Placement:
         if self._at != self.now and now - self._checked >= CHECK_INTERVAL:
             self._checked, self._at = now, self.now
             there = with_pose(frame, self.body, self.now)
-            poses = np.hstack([there.pose, there.prop_pose])
+            poses = there.all_poses
             self._fault = obstruction(frame.scenario, poses, self.body)
         return self._fault
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from subprocess import Popen
 
-from mars2d.core.errors import Mars2dError
+from mars2d.core.errors import InputError, Mars2dError
 from mars2d.output.excerpt import Excerpt, excerpt_of
 from mars2d.output.raster.bars import Banner
+from mars2d.window.run.text_editor import open_at
 from mars2d.window.screen.player import Player
+from mars2d.window.widgets.notes import Notes
 from mars2d.world.timeline import Timeline
 
 HINT = "← looks back   R restarts   Ctrl Q leaves"
@@ -27,12 +29,22 @@ class Ending:
         self._player, self.of_game = player, False
         self._error: Mars2dError | None = None
         self._excerpt: Excerpt | None = None
+        self.editors: list[Popen[bytes]] = []  # that were opened
 
-    @property
-    def line(self) -> tuple[Path, int] | None:
-        """The file and the line of the error that the banner shows, if they are known."""
-        excerpt = self._excerpt if self._player.failed else None
-        return None if excerpt is None else (excerpt.file, excerpt.line)
+    def open_source(self, notes: Notes) -> None:
+        """Open the experiment's file in the person's own editor, at the line of an error."""
+        source, where = self._player.source, None
+        if isinstance(source, Timeline) and source.experiment.source.path is not None:
+            where = source.experiment.source.path, 1
+        if self._player.failed and self._excerpt is not None:
+            where = self._excerpt.file, self._excerpt.line
+        if where is None:
+            notes.say("there is no file to open", "warning")
+            return
+        try:
+            self.editors.append(open_at(*where))
+        except InputError as error:
+            notes.say(str(error), "error")
 
     def banner(self) -> Banner | None:
         """Return the banner for the window's footer, None while the run goes on."""

@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from mars2d.bodies.colors import prop_colors
 from mars2d.core.scene import Anchor, Scene, faded
-from mars2d.output.layers.bodies import draw_prop, draw_robot
-from mars2d.output.layers.forces import bounding_circle
+from mars2d.output.layers.bodies import bounding_circle, draw_prop, draw_robot
 from mars2d.record.frame import Frame
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
@@ -55,7 +54,7 @@ class _Ghost:
         """Draw the bodies that are elsewhere; side: where the branch is named."""
         if self.along < self.parted:
             return
-        here = np.hstack([self.frame.pose, self.frame.prop_pose])
+        here = self.frame.all_poses
         there = np.hstack(
             [self._pose(self.world.history.pose, self.world.pose),
              self._pose(self.world.history.prop_pose, self.world.prop_pose)]

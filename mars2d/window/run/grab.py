@@ -197,16 +197,21 @@ class Grab:
             return frame
         return with_pose(frame, self._drag.body, pose)
 
-    def marks(self, frame: Frame, camera: Camera, *, named: bool = False) -> list[Shape]:
+    def marks(
+        self, frame: Frame, camera: Camera, *, named: bool = False, more: str = ""
+    ) -> list[Shape]:
         """Return shapes that show the drag, or the thing under the pointer.
 
-        named: whether all bodies are drawn with their names.
+        named: whether all bodies are drawn with their names. more: said of the body under it.
         """
         scene = Scene()
         if self._drag is not None:
             self._drag.draw(scene, frame, camera)
         elif self._hover is not None:
-            _draw_hover(scene, frame, camera, self._hover, self._pixel, named=named)
+            hover = self._hover
+            if more and hover.body is not None:
+                hover, named = hover._replace(name=f"{hover.name}  {more}"), False
+            _draw_hover(scene, frame, camera, hover, self._pixel, named=named)
         return scene.shapes
 
     def _show_cursor(self) -> None:

@@ -61,6 +61,8 @@ _SEE = (
     _action("printed", "F6", "what laws print on and off"),
     _action("ruler", "F8", "measure between two clicks, or from the selected body"),
     _action("stopwatch", "F9", "start, stop and put away a stopwatch of the run's time"),
+    _action("turn_on", "Shift PgDn", "further rows of panels", repeats=True),
+    _action("turn_back", "Shift PgUp", "earlier rows of panels", repeats=True),
     _action("select", "Tab", "select the next robot or prop, and inspect it"),
     _action("follow", "L", "let the camera follow the selected body, or all robots"),
     _action("fit", "F", "fit the workspace into the window", "Ctrl 0"),
@@ -83,6 +85,8 @@ LEAVE = _action("leave", "Ctrl Q", "close the window", "Ctrl W")
 
 DO = (
     _action("parameters", "F2", "sliders of parameters on and off"),
+    _action("slider", "Shift F2", "to the sliders: arrows, a number and Enter, Esc"),
+    _action("offer", "F10", "the menu of the selected robot or prop, or of the floor"),
     _action("drive", "H", "drive the selected robot by hand: arrow keys, WASD, controller"),
     _action("push", "W", "push the selected robot or prop with so many newtons, for so long"),
     _action("edit", "E", "draw walls, robots and more, while paused"),

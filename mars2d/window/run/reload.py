@@ -59,12 +59,14 @@ class Reload:
         stamps = {path: _stamp(path) for path in self._stamps}
         if stamps != self._stamps:
             self._stamps, self._since, self._changed = stamps, now, True
-        if not self._changed or None in stamps.values():
+        if not self._changed:
             return None
         if now - self._since < REST:
             self._next = self._since + REST
             return None
         self._changed = False
+        if gone := [path.name for path, stamp in stamps.items() if stamp is None]:
+            return Reloaded(f"{', '.join(gone)} is gone: the run goes on with what it was")
         contents = {path: _content(path) for path in stamps}
         others = [path.name for path in stamps if contents[path] != self._contents[path]]
         self._contents = contents
@@ -107,6 +109,9 @@ class Reload:
             words = f"started again: {str(error).partition(': ')[2]}"
         else:
             words = self._timeline.take(experiment, self._progress)
+            pairs = zip(self._experiment.scenario.bodies, experiment.scenario.bodies, strict=True)
+            if moved := [str(new.name) for old, new in pairs if old.pose != new.pose]:
+                words = f"R starts {', '.join(moved)} from there; all else is {words}"
         self._adopt()
         return words
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from math import dist
 from typing import Any
@@ -40,8 +40,10 @@ class ScopeMenu:
         toolbar: Toolbar,
         player: Player,
         selection: Selection,
+        actions: Mapping[str, Callable[[], None]],
     ) -> None:
-        """Show the plots that the file names."""
+        """Show the plots that the file names; actions: "figure" and "table", which save them."""
+        self._actions = actions
         self._scopes, self._toolbar = scopes, toolbar
         self._player, self._selection = player, selection
         robots = tuple(range(len(player.frame.scenario.robots)))
@@ -63,9 +65,12 @@ class ScopeMenu:
         """Open the menu for the selected body, or for all robots."""
 
         def entries() -> list[Entry]:
-            return entries_of_scopes(
+            plots = entries_of_scopes(
                 self._player.frame, self._selection.body, self._scopes, self.functions, distances
             )
+            figure = Entry("Save the plots as a figure", self._actions["figure"])
+            table = Entry("Save their numbers as CSV", self._actions["table"])
+            return [*plots, figure, table] if self._scopes.is_open else plots
 
         def distances() -> None:
             body, menu = self._selection.body or 0, self._toolbar.menu

@@ -6,14 +6,14 @@ import time
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
-from subprocess import Popen
 from typing import TYPE_CHECKING
 
 import pygame
 
-from mars2d.core.errors import InputError, Mars2dError, counted
+from mars2d.core.errors import Mars2dError, counted
 from mars2d.core.plane import Point
 from mars2d.core.scene import Scene
+from mars2d.output.layers.forces import in_newtons
 from mars2d.output.layers.table import Layers
 from mars2d.output.raster.bars import Banner, Status, draw_footer, draw_header, footer_height
 from mars2d.output.raster.layout import Layout, fitted
@@ -29,6 +29,7 @@ from mars2d.window.panels.lesson import Lesson
 from mars2d.window.panels.parameter_panel import ParameterPanel
 from mars2d.window.panels.predictions import Predictions
 from mars2d.window.panels.printed import Printed
+from mars2d.window.panels.rows import RowsPanel
 from mars2d.window.panels.scopes import Scopes
 from mars2d.window.run import keys
 from mars2d.window.run.context import (
@@ -43,18 +44,17 @@ from mars2d.window.run.director import RECORDING, Director
 from mars2d.window.run.ending import Ending
 from mars2d.window.run.ghosts import ghosts
 from mars2d.window.run.grab import CLICK, Grab
+from mars2d.window.run.heat import AGAIN, MOST, heat, squeezes
 from mars2d.window.run.hints import hints_of
-from mars2d.window.run.measure import Ruler, Stopwatch
 from mars2d.window.run.mouse import Mouse
 from mars2d.window.run.play import Play
 from mars2d.window.run.player_window import PlayerWindow
-from mars2d.window.run.push import EXPECTED, draw_pushes, pushed, suggested
-from mars2d.window.run.question import Question
+from mars2d.window.run.push import draw_pushes
 from mars2d.window.run.reload import Reload
 from mars2d.window.run.scope_menu import ScopeMenu
 from mars2d.window.run.score_panel import ScorePanel
-from mars2d.window.run.text_editor import open_at
 from mars2d.window.run.toolbar import Toolbar
+from mars2d.window.run.tools import Tools
 from mars2d.window.screen.display import (
     Preferences,
 )
@@ -65,7 +65,6 @@ from mars2d.window.screen.source import Playback, Source
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.dock import Dock
 from mars2d.window.widgets.notes import Progress, draw_progress
-from mars2d.world.operator import forceless
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
 
@@ -73,6 +72,12 @@ if TYPE_CHECKING:
     from mars2d.window.editor import Editor
 
 TYPING = (pygame.KEYDOWN, pygame.TEXTINPUT, pygame.TEXTEDITING)
+LACKS = {
+    "predictions": "this file has no checks, which compare a run with theory",
+    "lesson": "this file has no lesson: a docstring with Question: and the like",
+    "parameters": RECORDING,
+}
+"""What is said where a panel has nothing to show."""
 SEEN = 4.0
 """The radius below which robots of a game are hardly seen, so that the camera goes near, pixels."""
 
@@ -102,6 +107,7 @@ class Window(PlayerWindow):
         self.game: Play | None = None  # where people play
         self._before: Countdown | None = None
         self._score: ScorePanel | None = None
+        self._crowded = False  # whether forces are drawn as colours
         self._unseen = False  # whether a game has not been drawn yet
         timeline = self.director.timeline
         self._reload = None if timeline is None else Reload(timeline, self._show_way_back)
@@ -110,9 +116,8 @@ class Window(PlayerWindow):
         self._cast = _cast(source)
         painter = self._painter = self.looks.painter
         self._stage = Stage(painter, MEMORY)
-        self._selection, self._question = Selection(), Question()
-        self._ruler, self._stopwatch = Ruler(), Stopwatch()
-        self._editors: list[Popen[bytes]] = []  # that were opened
+        self._selection = Selection()
+        self._tools = Tools(self.player, self.director, self._selection, self.notes)
         self._printed = Printed(painter, lambda: self.player.source.frame.time)
         self._inspector = Inspector(painter, self._selection)
         self._predictions = Predictions(painter, timeline)
@@ -125,19 +130,9 @@ class Window(PlayerWindow):
             self._is_picture, self._select_at, self._offer,
         )  # fmt: skip
         self._actions |= {
-            "contacts": lambda: self.toolbar.open(
-                "contacts", partial(entries_of_contacts, self.player, self._actions)
-            ),
-            "printed": lambda: self.dock.switch("printed"),
-            "ruler": self._measure_or_not,
-            "stopwatch": lambda: self._stopwatch.press(self.player.frame.time),
-            "source": self._open_source,
-            "predictions": partial(
-                self._offer_panel, self._predictions, "checks, which compare a run with theory"
-            ),
-            "lesson": partial(
-                self._offer_panel, self._lesson, "lesson: a docstring with Question: and the like"
-            ),
+            "contacts": self._offer_contacts,
+            "source": lambda: self._ending.open_source(self.notes),
+            **{name: partial(self._switch_panel, name) for name in (*LACKS, "printed")},
             "within": partial(self._step_within, 1),
             "within_back": partial(self._step_within, -1),
             "branch": self._other_branch,
@@ -147,9 +142,12 @@ class Window(PlayerWindow):
             "table": lambda: self.scopes.save_table(self.player.frame, self.saver),
             "select": lambda: self.select(next_body(self.player.frame, self.selected)),
             "follow": self._follow_or_not,
-            "parameters": self._show_parameters,
+            "slider": self._to_sliders,
+            "offer": self._offer_by_key,
+            "turn_on": partial(self._turn_panels, -1),
+            "turn_back": partial(self._turn_panels, 1),
             "drive": self._drive_or_not,
-            "push": self._ask_for_push,
+            **self._tools.actions,
             "edit": self._open_editor,
             "film": self.saver.film_or_not,
             "python": self._save_python,
@@ -167,7 +165,9 @@ class Window(PlayerWindow):
             if not panel.offered:
                 del buttons[name]
         self.toolbar = Toolbar(buttons, self._is_on, live=timeline is not None)
-        self._scope_menu = ScopeMenu(self.scopes, self.toolbar, self.player, self._selection)
+        self._scope_menu = ScopeMenu(
+            self.scopes, self.toolbar, self.player, self._selection, self._actions
+        )
 
     @property
     def selected(self) -> int | None:
@@ -300,7 +300,12 @@ class Window(PlayerWindow):
         fit = partial(fitted, bounds, layout.size)
         room = self.dock.arrange(layout, frame, fit, bounds[3] - bounds[2])
         self.viewpoint.arrange(layout, frame.scenario, room)
-        marks = self.grab.marks(frame, self.camera, named=self.layers.names)
+        many = len(frame.contacts) > (AGAIN if self._crowded else MOST)
+        self._crowded, squeezed = many and layers.forces, ""
+        if self._crowded:
+            layers, over = layers.switched(forces=False), self.grab.over
+            squeezed = "" if over is None else in_newtons(float(squeezes(frame)[over]))
+        marks = self.grab.marks(frame, self.camera, named=self.layers.names, more=squeezed)
         if self.selected is not None:
             marks = [*selection_mark(frame, self.selected).shapes, *marks]
         timeline = self.director.timeline
@@ -309,10 +314,10 @@ class Window(PlayerWindow):
             done = timeline.world.operator.log
         elif isinstance(source, Playback):
             done += source.record.interventions
-        scene, dt = Scene(), frame.scenario.sampling_time
+        scene, dt = heat(frame) if self._crowded else Scene(), frame.scenario.sampling_time
         draw_pushes(scene, frame, pushes_at(done, frame.time, dt), self.camera)
         pointer = None if self._pointer is None else self._point_at(self._pointer)
-        self._ruler.draw(scene, frame, self.camera, pointer)
+        self._tools.ruler.draw(scene, frame, self.camera, pointer)
         marks = [*marks, *scene.shapes]
         others = [] if timeline is None else ghosts(timeline, frame).shapes
         self._stage.draw(
@@ -333,13 +338,13 @@ class Window(PlayerWindow):
             self.notes.draw(surface, layout.plot, self._painter, time.monotonic(), off)
         if self._way_back is not None:
             draw_progress(surface, layout.plot, self._painter, self._way_back)
-        self._stopwatch.draw(surface, self.viewpoint.room, self._painter, frame.time)
+        self._tools.stopwatch.draw(surface, self.viewpoint.room, self._painter, frame.time)
         self._draw_bars(surface, frame, banner)
         if self._before is not None and notes:
             self._before.draw(surface, self.viewpoint.room, layout.plot, self.camera, frame)
         if notes:
             self.toolbar.draw(surface, layout, self._painter, self._pointer)
-            self._question.draw(surface, layout.plot, self._painter)
+            self._tools.question.draw(surface, layout.plot, self._painter)
         self.help.draw(surface, layout, self._painter, keys.GROUPS.items())
 
     def _selected_pixel(self, frame: Frame) -> tuple[float, float] | None:
@@ -399,7 +404,7 @@ class Window(PlayerWindow):
     # -- events ---------------------------------------------------------------------------------
 
     def _take(self, event: pygame.Event) -> bool:
-        if self._question.handle(event):
+        if self._tools.question.handle(event):
             return True
         over = self.editor is None and self.toolbar.menu.is_open and self.toolbar.handle(event)
         if not over and self.director.handle(event):
@@ -422,7 +427,7 @@ class Window(PlayerWindow):
         if event.type == pygame.MOUSEBUTTONDOWN:
             self.parameters.leave()
             if self.player.failed and self.layout.footer.collidepoint(event.pos):
-                self._open_source()
+                self._ending.open_source(self.notes)
         self._mouse.handle(event)
 
     def _is_picture(self, pixel: tuple[int, int]) -> bool:
@@ -433,8 +438,8 @@ class Window(PlayerWindow):
     def _select_at(self, point: Point) -> None:
         """Select the body at a point [m] of the picture, or nothing; or measure there."""
         body = body_at(self.player.frame, point, self.grab.click / self.camera.scale)
-        if self._ruler.on:
-            self._ruler.mark(point if body is None else body)
+        if self._tools.ruler.on:
+            self._tools.ruler.mark(point if body is None else body)
         else:
             self.select(body)
 
@@ -443,15 +448,25 @@ class Window(PlayerWindow):
         ((x, y),) = self.camera.to_world([pixel]).tolist()
         return x, y
 
+    def _offer_by_key(self) -> None:
+        """Open the menu of the selected body, or of the middle of the floor."""
+        frame, body = self.player.frame, self.selected
+        middle = self.viewpoint.room.center
+        self._offer_at(self._point_at(middle) if body is None else frame.body_pose(body)[:2])
+
     def _offer(self, point: Point) -> None:
-        """Open the menu of what can be done with the thing at a point [m] of the picture."""
-        self._ruler.end()
+        """Select the thing at a point [m] of the picture, and open its menu."""
+        self._tools.ruler.end()
         self._select_at(point)
+        self._offer_at(point)
+
+    def _offer_at(self, point: Point) -> None:
+        """Open the menu of what can be done with what is selected, or at a point [m]."""
         ((x, y),) = self.camera.to_pixels([point]).astype(int).tolist()
         frame, body = self.player.frame, self.selected
         if body is None:
             entries = entries_of_place(
-                point, self.grab.name, self.director, self._actions, self._measure_from
+                point, self.grab.name, self.director, self._actions, self._tools.measure_from
             )
         else:
             entries = entries_of_body(frame, body, self.director, self._actions)
@@ -481,12 +496,18 @@ class Window(PlayerWindow):
             self._score.wanted = True
             self.game.begin()
 
-    def _offer_panel(self, panel: Predictions | Lesson, lacks: str) -> None:
-        """Show a panel of what the file offers, or no longer; lacks: said if it does not."""
+    def _switch_panel(self, name: str) -> None:
+        """Show a panel, or no longer; or say what it lacks."""
+        panel = next(panel for panel in self.dock.panels if panel.name == name)
         if panel.offered:
-            self.dock.switch(panel.name)
+            self.dock.switch(name)
         else:
-            self.notes.say(f"this file has no {lacks}", "warning")
+            self.notes.say(LACKS[name], "warning")
+
+    def _offer_contacts(self) -> None:
+        """Open the menu of contacts, beside the card of the last impact."""
+        self._impact.open()
+        self.toolbar.open("contacts", partial(entries_of_contacts, self.player, self._actions))
 
     def _to_contact(self, go: Callable[[], None]) -> None:
         """Go to a contact of the selected body, or of any; forces and its card are shown there."""
@@ -562,8 +583,8 @@ class Window(PlayerWindow):
         """End a drag, measuring or driving, select nothing, pause a game; return whether it did."""
         if self.grab.busy:
             self.grab.cancel()
-        elif self._ruler.on:
-            self._ruler.end()
+        elif self._tools.ruler.on:
+            self._tools.ruler.end()
         elif self._drives and self.game is None:
             self.director.let_go()
         elif self.selected is not None:
@@ -596,12 +617,18 @@ class Window(PlayerWindow):
         else:
             self.saver.python(scenario, timeline.world.control, timeline.options)
 
-    def _show_parameters(self) -> None:
-        """Open the panel of parameters, or close it."""
-        if self.director.timeline is None:
-            self.notes.say(RECORDING, "warning")
-        else:
-            self.dock.switch("parameters")
+    def _to_sliders(self) -> None:
+        """Let keys go to the sliders of parameters, which are shown."""
+        if not self.parameters.is_open:
+            self._switch_panel("parameters")
+        self.parameters.focus = next(iter(self.parameters.parameters()), None)
+
+    def _turn_panels(self, notches: int) -> None:
+        """Scroll the panels that have more rows, as the wheel over them does."""
+        turned = pygame.Event(pygame.MOUSEWHEEL, x=0, y=3 * notches)
+        for panel in self.dock.panels:
+            if isinstance(panel, RowsPanel) and panel.is_open and panel.cut:
+                panel.handle(turned)
 
     def _set_parameter(self, name: str, value: float, restart: bool) -> str:
         """Set a parameter; return why the run starts again, or ""."""
@@ -624,51 +651,6 @@ class Window(PlayerWindow):
             robot = self.selected or 0
             self.select(robot)
             self.director.drive(robot)
-
-    def _measure_from(self, point: Point) -> None:
-        """Begin to measure at a point [m]."""
-        self._ruler.begin(None)
-        self._ruler.mark(point)
-
-    def _measure_or_not(self) -> None:
-        """Begin to measure, from the selected body if there is one; to another; or no more."""
-        ruler, body = self._ruler, self.selected
-        if not ruler.on:
-            ruler.begin(body)
-            self.notes.say("click two points or bodies, or select one and press F8; Esc ends it")
-        elif len(ruler.ends) < 2 and body is not None and body not in ruler.ends:
-            ruler.mark(body)
-        else:
-            ruler.end()
-
-    def _open_source(self) -> None:
-        """Open the experiment's file in the person's own editor, at the line of an error."""
-        path = _path(self.player.source)
-        where = self._ending.line or (path and (path, 1))
-        if not where:
-            self.notes.say("there is no file to open", "warning")
-            return
-        try:
-            self._editors.append(open_at(*where))
-        except InputError as error:
-            self.notes.say(str(error), "error")
-
-    def _ask_for_push(self) -> None:
-        """Ask for the force on the selected body, and push it."""
-        body, frame = self.selected, self.player.frame
-        if body is None:
-            self.notes.say("Tab selects what is pushed", "warning")
-        elif fault := forceless(frame.scenario, body):
-            self.notes.say(fault, "warning")
-        else:
-
-            def push(text: str) -> None:
-                force, seconds = pushed(text, self.player.frame.body_pose(body)[2])
-                if self.director.change(lambda world: world.operator.push(body, force, seconds)):
-                    self.notes.say(f"a push of {text.strip()}")
-
-            name = frame.scenario.bodies[body].name
-            self._question.ask(f"Push {name}, {EXPECTED}", suggested(frame, body), push)
 
     def say_who_stands_still(self) -> None:
         """Say which robots of a drawn scenario nothing moves, or that nothing moves any."""

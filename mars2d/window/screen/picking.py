@@ -13,7 +13,7 @@ import shapely
 from mars2d.core.plane import Point, lines_and_areas
 from mars2d.core.scene import Scene
 from mars2d.geometry.shapes import Piece
-from mars2d.output.layers.forces import bounding_circle
+from mars2d.output.layers.bodies import bounding_circle
 from mars2d.output.raster.theme import LIGHT
 from mars2d.record.frame import Float, Frame
 from mars2d.scenario.scenario import Scenario
@@ -46,7 +46,7 @@ class Finder:
             self._obstacles = shapely.STRtree(lines_and_areas(self._outlines))
             bounds = (body.shape.bound for body in frame.scenario.bodies)
             self._reach = np.array([hypot(*center) + radius for center, radius in bounds])
-        x, y = np.hstack([frame.pose[:2], frame.prop_pose[:2]])
+        x, y = frame.all_poses[:2]
         near = np.hypot(x - point[0], y - point[1]) <= self._reach + slack
         body = body_at(frame, point, slack) if near.any() else None
         if body is not None:
@@ -73,7 +73,7 @@ def body_at(
     Bodies are indices of `Scenario.bodies`. slack: how far beside its edge one is hit, metres. but:
     bodies that are looked through.
     """
-    poses = np.hstack([frame.pose, frame.prop_pose])
+    poses = frame.all_poses
     n = frame.pose.shape[1]
     order = [*reversed(range(n)), *reversed(range(n, poses.shape[1]))]
     for i in order:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -114,7 +115,11 @@ class Saver:
     def _end_film(self) -> str:
         assert self._film is not None
         film, self._film = self._film, None
-        return f"film: {film.stop()}"
+        try:
+            return f"film: {film.stop()}"
+        except InputError:
+            film.path.unlink(missing_ok=True)  # it is broken
+            raise
 
     def film(
         self, picture: pygame.Surface, screen: pygame.Surface, plot: pygame.Rect, painter: Painter
@@ -124,7 +129,10 @@ class Saver:
         try:
             self._film.take(picture)
         except InputError as error:
-            self._film = None
+            broken = self._film.path
+            with suppress(InputError):
+                self._end_film()
+            broken.unlink(missing_ok=True)
             self._notes.say(str(error), "error")
             return
         scene, ui = Scene(), painter.ui

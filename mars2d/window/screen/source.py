@@ -75,7 +75,7 @@ class Playback:
         scenario = self.record.scenario
         if scenario.workspace is not None:
             return scenario.bounds
-        poses = np.concatenate([self.record.pose, self.record.prop_pose], axis=2)
+        poses = self.record.all_poses
         low, high = (find(poses[:, :2], axis=(0, 2)) for find in (np.nanmin, np.nanmax))
         xmin, xmax, ymin, ymax = scenario.bounds
         return (

@@ -10,7 +10,7 @@ from math import exp, hypot, log
 import numpy as np
 import pygame
 
-from mars2d.output.layers.forces import bounding_circle
+from mars2d.output.layers.bodies import bounding_circle
 from mars2d.output.raster.camera import FARTHEST, NEAREST, Camera
 from mars2d.output.raster.layout import Bounds, Layout, fitted
 from mars2d.record.frame import Float, Frame

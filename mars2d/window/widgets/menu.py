@@ -9,6 +9,8 @@ import pygame
 
 from mars2d.output.raster.painter import Painter
 from mars2d.window.widgets.actions import CONTROL, MODIFIERS, label_of
+from mars2d.window.widgets.help import draw_veil
+from mars2d.window.widgets.text_field import TextField
 
 ROW, MORE, PAD, BOX = 30.0, 18.0, 8.0, 15.0
 """The heights of an entry and of a line below it, the margin, a tick box's side, points."""
@@ -17,6 +19,13 @@ SIZE, SMALL = 14.5, 12.5
 SCALE, LEAST = 0.9, 220.0
 """How large a docked menu is, beside others, and the width below which it gets smaller, points."""
 TICK = [(0.22, 0.52), (0.42, 0.74), (0.80, 0.26)]
+FIELD = 320.0
+"""The room for a field to type in, points."""
+ASKED = frozenset({
+    pygame.KEYDOWN, pygame.TEXTINPUT, pygame.TEXTEDITING, pygame.MOUSEBUTTONDOWN,
+    pygame.MOUSEWHEEL,
+})  # fmt: skip
+"""The events that a menu that asks keeps from all else."""
 SIGNS = ((1, "+"), (-1, "\N{MINUS SIGN}"))
 
 
@@ -27,7 +36,7 @@ class Entry(NamedTuple):
     its tick box is ticked; None for none. colors: of dots before the title. value: what is written
     at its right. more: a line below it. step: called with 1 or -1 by the buttons + and - of a
     number. level: how far the title is indented. tone: "note" for words that are no heading,
-    "warning" for what stands out.
+    "warning" for what stands out. field: to type in, beside the title.
     """
 
     title: str
@@ -40,6 +49,7 @@ class Entry(NamedTuple):
     step: Callable[[int], object] | None = None
     level: int = 0
     tone: str = ""
+    field: TextField | None = None
 
 
 class Menu:
@@ -47,8 +57,9 @@ class Menu:
 
     Arrow keys and Enter choose, as do the mouse, the keys named beside the entries, and the first
     letters of a title. Esc, a click elsewhere, and commands with Ctrl or a function key close it.
-    One with tick boxes stays open until then. A docked one fills its bounds and never closes; it
-    takes keys while it has the focus.
+    One with tick boxes stays open until then. One that asks stays until an entry is chosen, in the
+    middle, and nothing else can be done. A docked one fills its bounds and never closes; it takes
+    keys while it has the focus.
 
     name: of what is open, or "". corner: where it was opened, pixels. plate: where it was drawn.
     """
@@ -64,7 +75,7 @@ class Menu:
         self._chosen, self._typed = 0, ""  # the number of an entry; letters typed so far
         self._first = 0  # the entry at the top, where there is no room for all
         self._sought = False  # whether the chosen entry is to be brought into view
-        self._stays = self._pointed = False
+        self._stays = self._asks = self._pointed = False
 
     @property
     def is_open(self) -> bool:
@@ -100,9 +111,14 @@ class Menu:
         corner: tuple[int, int],
         *,
         stays: bool = False,
+        asks: bool = False,
     ) -> None:
-        """Open it at a pixel; entries: returns those of now. stays: until an entry is chosen."""
-        self.name, self._entries, self.corner, self._stays = name, entries, corner, stays
+        """Open it at a pixel; entries: returns those of now. stays: until an entry is chosen.
+
+        asks: it stays, and takes all events of keys and buttons.
+        """
+        self.name, self._entries, self.corner = name, entries, corner
+        self._stays, self._asks = stays or asks, asks
         self._typed, self._first, self._chosen = "", 0, -1
         self._move(1)
 
@@ -120,6 +136,14 @@ class Menu:
         """Handle an event; return whether the menu took it."""
         if not self.is_open:
             return False
+        if not self._asks:
+            return self._take(event)
+        field = next((entry.field for entry in self._listed() if entry.field is not None), None)
+        if field is None or not field.handle(event):
+            self._take(event)
+        return event.type in ASKED
+
+    def _take(self, event: pygame.Event) -> bool:
         if event.type == pygame.KEYDOWN:
             return self.focused and self._press(event)
         if event.type == pygame.MOUSEMOTION:
@@ -221,15 +245,16 @@ class Menu:
     def size(self, painter: Painter) -> tuple[int, int]:
         """Return its width and height where there is room for all, pixels."""
         entries, ui, pad = self._listed(), painter.ui, round(PAD * painter.ui)
-        width, fonts = painter.fonts.width, painter.fonts
-        titles = max(
+        width = painter.fonts.width
+        titles = [
             max(width(each.title, SIZE * ui, bold=each.act is None),
-                fonts.width(each.more, SMALL * ui)) + self._before(each, entries, ui)
+                width(each.more, SMALL * ui))
+            + self._before(each, entries, ui) + round(FIELD * ui * (each.field is not None))
             for each in entries
-        )  # fmt: skip
+        ]  # fmt: skip
         ends = max(width(f"{each.value}{each.key}", SIZE * ui) for each in entries)
         return (
-            titles + (ends + round(24 * ui) if ends else 0) + 4 * pad,
+            max(titles) + (ends + round(24 * ui) if ends else 0) + 4 * pad,
             sum(_height(each, ui) for each in entries) + 2 * pad,
         )
 
@@ -247,6 +272,8 @@ class Menu:
         entries, theme = self._entries(), painter.theme
         ui = min(SCALE * painter.ui, bounds.width / LEAST) if self._docked else painter.ui
         self._arrange(entries, bounds, painter, ui)
+        if self._asks:
+            draw_veil(surface, painter, bounds)
         if self._docked:
             surface.fill(theme.bar, bounds)
             surface.fill(theme.edge, (bounds.left, bounds.top, 1, bounds.height))
@@ -289,6 +316,8 @@ class Menu:
         self._chosen = min(able, key=lambda k: abs(k - self._chosen), default=self._chosen)
         tall = bounds.height if self._docked else sum(heights[first:seen]) + 2 * pad
         self.plate = pygame.Rect(self.corner, (min(width, bounds.width), tall)).clamp(bounds)
+        if self._asks:
+            self.plate.center = bounds.center
         top, self._places = self.plate.top + pad, []
         for k in range(first, seen):
             place = pygame.Rect(self.plate.left + pad, top, self.plate.width - 2 * pad, heights[k])
@@ -323,8 +352,9 @@ class Menu:
             right = at.left - pad
         head = entry.act is None and not entry.tone
         title, value = (theme.muted, theme.ink) if self._docked else (theme.ink, theme.muted)
-        if head or entry.tone == "warning":
-            title = theme.waiting.ink if entry.tone else value
+        if head or entry.tone:
+            inks = {"note": theme.muted, "warning": theme.waiting.ink}
+            title = inks.get(entry.tone, value)
         room = right - left - before
         most = max(0.6 * room, room - pad - fonts.width(entry.title, size, bold=head))
         words = fonts.shorten(f"{entry.value}{entry.key}", size, most)
@@ -333,7 +363,12 @@ class Menu:
             dot = box.move(round(k * (BOX + 4) * ui), 0)
             painter.panel(surface, dot, theme.shade(color), side / 2)
         text = fonts.shorten(entry.title, size, end - left - before - pad * bool(words), bold=head)
-        painter.write(surface, text, size, title, bold=head, midleft=(left + before, middle))
+        at = painter.write(surface, text, size, title, bold=head, midleft=(left + before, middle))
+        if entry.field is not None:
+            typed = pygame.Rect(at.right + pad, place.top, 0, place.height)
+            typed.width = place.right - typed.left
+            painter.panel(surface, typed, theme.paper, 5 * ui, theme.selected)
+            entry.field.draw(surface, typed.inflate(-2 * pad, 0), painter, size)
         if entry.more:
             more = fonts.shorten(entry.more, SMALL * ui, place.right - pad - left - before)
             below = (left + before, middle + MORE * ui)

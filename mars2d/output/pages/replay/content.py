@@ -149,7 +149,7 @@ class _Content:
         """Add the poses of all bodies at as many rows as fit, and remember these rows."""
         record, step = self.record, self.size * FINE
         low = np.array([self.view.xmin, self.view.ymin])
-        poses = np.concatenate([record.pose, record.prop_pose], axis=2)
+        poses = record.all_poses
         turn = max(TURN, float(np.abs(poses[:, 2]).max()) * 2**-27)
         ways = _ways(poses)
         progress = _progress(ways)

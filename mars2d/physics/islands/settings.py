@@ -1,16 +1,9 @@
-"""What the numbers of a run depend on beside its scenario: settings of the solver, versions.
+"""What the numbers of a run depend on beside its scenario: settings of the solver.
 
-Changing a setting changes every digest.
+Changing one changes every digest.
 """
 
 from __future__ import annotations
-
-import platform
-from importlib import import_module
-
-import numpy as np
-
-from mars2d.physics.islands import reason_without, version
 
 # -- the engine's solver ------------------------------------------------------------------------
 
@@ -77,8 +70,9 @@ the blow changes the angular momentum of both by as much.
 OVERLOAD = 0.9
 """How deep it is, in parts of how deep bodies may enter, where more pushes add up than thought."""
 
-LOAD_GROWTH, LOAD_DECAY = 2.0, 0.98
-"""The factor by which that number changes in a substep that finds them so deep, and in another."""
+LOAD_GROWTH = 2.0
+LOAD_DECAY = 0.98
+"""The factors by which that number changes in a substep that finds them so deep, and in another."""
 
 STRETCH = 1 / 15
 """How much longer a rope may be when it jerks, in parts of how deep bodies may enter.
@@ -125,31 +119,3 @@ is allowed than by default, a larger part of it is: speed is wanted then.
 
 DEFAULT_OVERLAP = 1e-3
 """The overlap that is allowed by default, metres."""
-
-
-def versions() -> dict[str, str]:
-    """Return the environment on which a run's numbers may depend: software versions, the processor.
-
-    The engine, sensors and add-ons round alike on all; laws may use the sines of a C library.
-    """
-    from mars2d import __version__
-
-    return {
-        "mars2d": __version__,
-        "compiled": "no" if reason_without() else "yes",
-        "pymunk": version(),
-        "numpy": np.__version__,
-        "python": platform.python_version(),
-        "platform": f"{platform.system()} {platform.machine()}",
-        "libc": " ".join(platform.libc_ver()).strip(),
-        "processor": _processor(),
-    }
-
-
-def _processor() -> str:
-    """Return the processor's features that may change the rounding of a law's sines."""
-    try:
-        able = import_module("numpy._core._multiarray_umath").__cpu_features__
-    except (ImportError, AttributeError):
-        return ""
-    return " ".join(each for each in ("FMA3", "AVX2", "AVX512F", "ASIMD") if able.get(each))

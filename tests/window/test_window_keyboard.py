@@ -1,0 +1,62 @@
+"""What the mouse does is done by the keyboard alone, too."""
+
+import pytest
+
+from tests.window.test_window_buttons import choose
+
+
+def test_a_menu_opens_on_what_is_selected_or_on_the_floor(open_window, room):
+    window = open_window(0, experiment=str(room))
+    window.press("F10")
+    assert "Show all" in window.settle()["menu"]
+    window.press("Escape", "Tab", "Tab", "Tab", "F10")
+    menu = window.shown.toolbar.menu
+    window.type("t")  # by its first letter
+    assert menu.chosen == "Twice as heavy"
+    window.press("Return")
+    window.says("crate with a mass of 4 kg")
+
+
+def test_sliders_are_reached_and_set_by_keys(open_window, pushing):
+    window = open_window(0, experiment=str(pushing))
+    window.press("Tab", "Tab", "Tab", "shift+F2")
+    panel = window.shown.parameters
+    assert panel.is_open
+    assert panel.focus == next(iter(panel.parameters()))
+    before = panel.parameters()[panel.focus].value
+    window.press("Right")
+    assert panel.parameters()[panel.focus].value > before
+    assert window.settle()["row"] == 0
+    window.press("Escape", "Right")
+    assert window.settle()["row"] == 1
+
+
+def test_panels_are_scrolled_by_keys(open_window, tmp_path):
+    path = tmp_path / "long.py"
+    words = "Question: " + " ".join(f"what is {k} times {k}?" for k in range(200))
+    path.write_text(
+        f"'''Long. {words} Try: it.'''\nfrom mars2d import Robot, Scenario\n"
+        "scenario = Scenario(robots=[Robot()])\n"
+    )
+    window = open_window(0, experiment=str(path))
+    window.press("F4")
+    lesson = window.shown._lesson
+    window.settle()
+    assert lesson.cut
+    window.press("shift+Next", "shift+Next")
+    assert lesson.scroll > 100
+    window.press("shift+Prior", "shift+Prior", "shift+Prior")
+    assert window.settle()["row"] == 0, "without Shift they are steps"
+    assert lesson.scroll == 0
+
+
+def test_plots_are_saved_from_their_menu(open_window, pushing, tmp_path):
+    window = open_window(0, folder=tmp_path, experiment=str(pushing))
+    window.press("Right", "Right", "q")
+    choose(window, "Speed")
+    choose(window, "Save their numbers as CSV")
+    window.says("pushing_1.csv")
+    pytest.importorskip("matplotlib")
+    window.press("q")
+    choose(window, "Save the plots as a figure")
+    window.says("pushing_1.png")
