@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from math import exp
-
 import numpy as np
 
 from mars2d.addons.base import Addon
+from mars2d.core.arithmetic import decay
 from mars2d.core.checks import instance, optional
 from mars2d.core.description import Description, entry, flag, number
 from mars2d.core.errors import InputError
@@ -55,7 +54,7 @@ class Burst(Description):
         """
         share = self.share_bad
         if bad is not None:
-            share += (float(bad) - share) * exp(-duration * (1 / self.good + 1 / self.bad))
+            share += (float(bad) - share) * decay(duration * (1 / self.good + 1 / self.bad))
         return bool(rng.random() < share)
 
     def loses(self, bad: bool, rng: np.random.Generator) -> bool:

@@ -54,9 +54,9 @@ def watched() -> Iterator[Seen]:
         seen.again.append(body.number)
         again(mover, body)
 
-    def step(solver: Solver, h: float, growth: float) -> None:
+    def step(solver: Solver, h: float) -> None:
         seen.solved.append(len(solver.bodies))
-        go(solver, h, growth)
+        go(solver, h)
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Island, "run", run_island)

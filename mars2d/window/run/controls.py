@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from math import dist, inf
 
 import pygame
@@ -18,11 +18,12 @@ from mars2d.window.screen.source import Playback, Source
 from mars2d.window.screen.viewpoint import wheel_notches
 from mars2d.window.widgets.slider import SpeedSlider
 from mars2d.world.timeline import Timeline
+from mars2d.world.world import World
 
 DOUBLE, NEAR = 0.35, 6
 """The longest time between two clicks that are one double click, seconds; how far apart, pixels."""
 MARK_INTERVAL = 0.25
-"""How often a run is read for collisions, seconds."""
+"""How often the log of contacts is read for collisions, seconds."""
 
 
 class Controls:
@@ -34,9 +35,8 @@ class Controls:
     def __init__(self, player: Player, marked: Source) -> None:
         """Start with nothing drawn; marked: the source whose events are marked."""
         self._player = player
-        self._marked = marked
-        self._marks = marks_of(marked.record) if isinstance(marked, Playback) else {}
-        self._read: tuple[object, ...] = ()  # what the marks of a run were read of
+        known = marks_of(marked.record) if isinstance(marked, Playback) else {}  # they stay
+        self._marks = Marks(marked).rows if isinstance(marked, Timeline) else lambda: known
         self.time_bar, self.slider = TimeBar(), SpeedSlider(SPEEDS)
         self._pressed: tuple[float, Pixel, int, bool] = -inf, (0, 0), 0, False
         self.handles: list[Handle] = [
@@ -79,17 +79,12 @@ class Controls:
         """Return the state that the time bar shows."""
         source = self._player.source
         live = not isinstance(source, Playback)
-        if isinstance(self._marked, Timeline):
-            world, now = self._marked.world, time.monotonic() // MARK_INTERVAL
-            of = world, world.over, len(world.operator.log), len(self._marked.branches), now
-            if of != self._read:
-                self._read, self._marks = of, marks_in(self._marked)
         return TimeState(
             row=source.row,
             rows=source.newest,
             last=source.scenario.last_iteration if live else source.newest,
             sampling_time=source.scenario.sampling_time,
-            marks=self._marks,
+            marks=self._marks(),
             live=live,
         )
 
@@ -137,12 +132,32 @@ class Controls:
             self._player.set_speed(speed)
 
 
-def marks_in(timeline: Timeline) -> dict[MarkKind, list[int]]:
-    """Return the rows of a run with collisions, interventions, branches and errors, ascending."""
-    world = timeline.world
-    return {
-        "collision": meetings(world.frame.contact_log(), world.sampling_time),
-        "hand": sorted({each.row for each in world.operator.log}),
-        "branch": sorted({timeline.parted(other) for other in timeline.branches}),
-        "error": [world.iteration] if world.over and not world.finished else [],
-    }
+class Marks:
+    """The rows of a run with collisions, interventions, branches and errors."""
+
+    def __init__(self, timeline: Timeline) -> None:
+        """Start with nothing read."""
+        self._timeline = timeline
+        self._world: World | None = None
+        self._seen = 0  # rows of the contact log
+        self._next = 0.0
+        self._touched: list[int] = []
+
+    def rows(self) -> Mapping[MarkKind, Sequence[int]]:
+        """Return the rows of each kind in ascending order; collisions may lag by a moment."""
+        timeline, world = self._timeline, self._timeline.world
+        if world is not self._world:
+            self._world, self._seen, self._next, self._touched = world, 0, 0.0, []
+        now = time.monotonic()
+        if now >= self._next:
+            self._next = now + MARK_INTERVAL
+            contacts = world.frame.contact_log()
+            new, self._seen = contacts[self._seen :], len(contacts)
+            rows = meetings(new, world.sampling_time)
+            self._touched += [row for row in rows if row not in self._touched[-1:]]
+        return {
+            "collision": self._touched,
+            "hand": sorted({each.row for each in world.operator.log}),
+            "branch": sorted({timeline.parted(other) for other in timeline.branches}),
+            "error": [world.iteration] if world.over and not world.finished else [],
+        }
