@@ -6,7 +6,7 @@ and walls alone.
 
 import numpy as np
 
-from mars2d import Car, Differential, Holonomic, Robot, Scenario, Unicycle, load_law
+from mars2d import Car, Differential, Holonomic, Omni, Robot, Scenario, Unicycle, load_law
 from mars2d.addons import Beacon, Communication, Floor, Game, Map
 from mars2d.bodies.joints import Hinge, Rod, Rope, Spring
 from mars2d.bodies.props import Ball, Bar, Box, Gate, Puck, Solid
@@ -23,6 +23,12 @@ def wander(robot):
     robot.send({"name": robot.name, "near": bool(robot.sense.proximity)})
     heard = sum(message.content.get("near", 0) for message in robot.inbox)
     return 1.0, robot.rng.normal() * (1 + robot.sense.proximity) + 0.1 * heard
+
+
+def swerve(robot):
+    """Wander, and turn meanwhile."""
+    ahead, aside = wander(robot)
+    return ahead, aside, robot.rng.normal()
 
 
 def slide(robot):
@@ -55,7 +61,9 @@ def scenario(hunter: str = "hunter.py", prey: str = "prey.py", seed: int = 0, di
         wanderer.replace(name="car", drive=Car(max_steering=0.6), shape=WEDGE),
         wanderer.replace(name="cart", drive=Differential(noise=0.1), diameter=0.4),
         wanderer.replace(name="late", drive=Unicycle(dead_time=0.15, max_acceleration=2.0)),
-        wanderer.replace(name="heavy", mass=3.0),
+        wanderer.replace(
+            name="heavy", mass=3.0, drive=Omni(noise=0.1, max_acceleration=2.0), controller=swerve
+        ),
         slider.replace(name="drifter"),
         slider.replace(name="el", shape=ELL),
     ]
