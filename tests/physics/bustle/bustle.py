@@ -28,7 +28,7 @@ def wander(robot):
 def swerve(robot):
     """Wander, and turn meanwhile."""
     ahead, aside = wander(robot)
-    return ahead, aside, robot.rng.normal()
+    return ahead, 0.3 * aside, aside
 
 
 def slide(robot):
