@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -12,7 +13,7 @@ from numpy.typing import NDArray
 from mars2d.addons.contest import Capture, Outcome, Teams, listed, robots_of, wins
 from mars2d.addons.elimination import Elimination, Exit, Float, Span, firsts, mark
 from mars2d.core import checks
-from mars2d.core.arithmetic import norms
+from mars2d.core.arithmetic import ROUNDING, norms
 from mars2d.core.description import accepts, entry, flag, integer, number, real, wrong
 from mars2d.core.errors import InputError, counted, likely, ordinal
 from mars2d.core.interfaces import FrameLike, ScenarioLike, WorldLike
@@ -84,6 +85,9 @@ class Game(Elimination):
         doc="the number of captures that the hunters need; None: all of the hunted",
     )  # fmt: skip
 
+    together: int = integer(
+        default=1, low=1, high=10**6, doc="the number of hunters that it takes at once to catch one"
+    )
     par: float | None = number(
         default=None, above=0, high=1e9, optional=True, unit="s",
         doc="when time is over for who has to catch, or to reach the goal; None: the stop time",
@@ -117,17 +121,20 @@ class Game(Elimination):
                 f"{type(self).__name__}.wanted", self.wanted,
                 f"at most {len(evaders)}, as there are {counted(len(evaders), 'robot')} to catch",
             )  # fmt: skip
+        if self.together > len(hunters):
+            most = f"at most {len(hunters)}, as there are {counted(len(hunters), 'hunter')}"
+            raise wrong(f"{type(self).__name__}.together", self.together, most)
         return hunters, evaders
 
     def exits(self, teams: Teams, span: Span) -> list[Exit]:
         """Return the evaders that are caught, in order, then those that reach the goal before."""
         captures: list[Exit] = []
         if self.capture == CONTACT:
-            captures = _touches(teams, span)
+            captures = _touches(teams, span, self.together)
         elif self.capture == SIGHT:
-            captures = _approaches(teams, span, np.inf, _sights(teams, span))
+            captures = _approaches(teams, span, np.inf, _sights(teams, span), self.together)
         elif self.capture is not None:
-            captures = _approaches(teams, span, float(self.capture), np.True_)
+            captures = _approaches(teams, span, float(self.capture), np.True_, self.together)
         safe = []
         if self.goal is not None:
             x, y, _ = span.pose.swapaxes(0, 1)
@@ -255,6 +262,7 @@ class Game(Elimination):
         hunter = f"the {hunting}"
         if len(hunters) > 1:
             hunter = f"one of {len(hunters)} {hunting.removesuffix('s')}s"
+        at_once = f", {self.together} of them at once" if self.together > 1 else ""
         evader = f"the {evading}" if self.hunted is None else "the hunted one"
         evader = evader if count == 1 else f"one of {count}"
         how = {
@@ -267,7 +275,7 @@ class Game(Elimination):
         if self.capture is None:
             return f"Nobody is caught. {in_goal}. If {over} before, the {hunters_win}."
         sentences = (
-            f"A capture is when {hunter} {how}.",
+            f"A capture is when {hunter} {how}{at_once}.",
             "Who is caught stands still." if count > 1 else "",
             f"The {hunters_win} with {'the capture' if needed == 1 else f'{needed} captures'}.",
             f"{in_goal} uncaught." if self.goal is not None else "",
@@ -305,8 +313,11 @@ def _so_many_are(count: int, needed: int) -> str:
     return "it is" if count == 1 else f"{safe} of {count} {'is' if safe == 1 else 'are'}"
 
 
-def _touches(teams: Teams, span: Span) -> list[Exit]:
-    """Return an exit for each touch of a hunter and an evader, in the order of the contacts."""
+def _touches(teams: Teams, span: Span, together: int) -> list[Exit]:
+    """Return an exit for each touch of a hunter and an evader, in the order of the contacts.
+
+    together: how many hunters must touch the evader in the same control step.
+    """
     hunters, evaders = teams
     met = span.contacts[np.minimum(span.contacts["a"], span.contacts["b"]) >= 0]  # no obstacles
     if not len(met):
@@ -314,11 +325,15 @@ def _touches(teams: Teams, span: Span) -> list[Exit]:
     a, b = met["a"], met["b"]
     hunts = np.isin(a, hunters) & np.isin(b, evaders)
     hunted = np.isin(b, hunters) & np.isin(a, evaders)
-    return [
-        Exit(float(met["time"][k]), int(evader), -1.0, int(hunter))
-        for k in np.flatnonzero(hunts | hunted)
-        for hunter, evader in [(a[k], b[k]) if hunts[k] else (b[k], a[k])]
-    ]
+    found, steps = [], np.floor(met["time"] / span.scenario.sampling_time + ROUNDING)
+    touching: dict[tuple[float, int], set[int]] = defaultdict(set)  # by control step and evader
+    for k in np.flatnonzero(hunts | hunted).tolist():
+        hunter, evader = map(int, (a[k], b[k]) if hunts[k] else (b[k], a[k]))
+        there = touching[steps[k], evader]
+        there.add(hunter)
+        if len(there) >= together:
+            found.append(Exit(float(met["time"][k]), evader, -1.0, hunter))
+    return found
 
 
 def _lines(teams: Teams, position: Float) -> Sequence[Float]:
@@ -368,14 +383,14 @@ def _distances(teams: Teams, span: Span, *, passing: bool) -> Float:
     return norms(*np.moveaxis(apart, -1, 0))
 
 
-def _approaches(teams: Teams, span: Span, reach: float, seen: Any) -> list[Exit]:
+def _approaches(teams: Teams, span: Span, reach: float, seen: Any, together: int) -> list[Exit]:
     """Return the first capture of each evader by the nearest hunter in reach, in order.
 
-    seen: whom the hunters see (T, h, e).
+    seen: whom the hunters see (T, h, e). together: how many have to be in reach at once.
     """
     hunters, evaders = teams
     distance = np.where(seen, _distances(teams, span, passing=np.isfinite(reach)), np.inf)
-    near = distance.min(axis=1)
+    near = np.partition(distance, together - 1, axis=1)[:, together - 1]
     there = (near <= reach) & np.isfinite(near)
     return [
         Exit(when, evaders[k], -1.0, hunters[distance[there[:, k].argmax(), :, k].argmin()])

@@ -110,6 +110,26 @@ def test_the_nearest_of_several_hunters_is_the_one_who_catches():
     assert world.over_message == "robot1 catches robot2 after 0 s: hunters win"
 
 
+@each_case(("capture", "alone", "both", "last"), [(0.5, 3.0, 7.0, 0), ("contact", 3.4, 7.4, 1)])
+def test_it_may_take_two_hunters_at_once(capture, alone, both, last):
+    def near(robot):
+        x = float(robot.pose[0])
+        return (0.0 if abs(x) < 0.3 else -np.sign(x) * 0.5), 0.0
+
+    robot = Robot(drive=Holonomic(), controller=near)
+    wait = robot.replace(controller=still)
+    for together, when, who in [(1, alone, 0), (2, both, last)]:  # the nearest, who touches last
+        game = Game({"hunters": [0, 1], "prey": [2]}, capture=capture, together=together)
+        robots = [robot.at(-2, 0), robot.at(4, 0), wait.at(0, 0)]
+        record = finished(Scenario(robots=robots, addons=[game], stop_time=10)).record
+        (caught,) = game.outcome(record).captures
+        assert (caught.hunter, caught.evader) == (who, 2)
+        assert caught.time == pytest.approx(when, abs=0.1)
+        assert record.time[-1] == pytest.approx(caught.time, abs=0.11)
+    with pytest.raises(InputError, match=r"Game.together = 3: expected at most 2"):
+        World(Scenario(robots=robots, addons=[game.replace(together=3)]))
+
+
 def test_contacts_with_others_are_no_captures():
     """Two hunters, then two evaders, touch each other: nobody is caught."""
     robot = Robot(drive=Holonomic(), controller=right)

@@ -11,7 +11,7 @@ ROOT = Path(__file__).parents[2]
 CODE = {".py", ".pyx", ".pxd", ".pxi", ".js", ".css", ".html"}
 
 LINES = {
-    "addons": 4_181,
+    "addons": 4_196,
     "bodies": 2_003,
     "cli": 2_575,
     "core": 3_149,
@@ -28,7 +28,7 @@ LINES = {
     "tournaments": 3_406,
     "window": 15_682,
     "world": 3_957,
-    "tests": 54_706,
+    "tests": 54_734,
 }
 """Lines at most, by room of the package, and of all tests."""
 
