@@ -264,12 +264,6 @@ class Wheeled(Turning):
     )
     wheel_names: ClassVar[tuple[str, str] | None] = ("left", "right")
 
-    def _validate(self) -> None:
-        known = isinstance(self.inputs, tuple) and 1 <= len(self.inputs) <= 4
-        if not (known and all(isinstance(each, Quantity) for each in self.inputs)):
-            expected = "a tuple of 1 to 4 quantities, such as (Quantity('v', 'm/s'),)"
-            raise wrong(f"{type(self).__name__}.inputs", self.inputs, expected)
-
     @property
     def inputs(self) -> tuple[Quantity, ...]:
         """V [m/s] and omega [rad/s]."""
