@@ -32,7 +32,7 @@ WAYS = [
 
 def control(world):
     forces = [world.addons.potential_field.force(i) for i in range(len(world.robots))]
-    return list(zip(*map(follow, forces, world.pose[2]), strict=True))
+    return np.transpose([*map(follow, forces, world.pose[2])])
 
 
 def follow(force, theta):

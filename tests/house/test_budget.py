@@ -17,7 +17,7 @@ LINES = {
     "core": 3_149,
     "geometry": 1_560,
     "output": 13_179,
-    "physics": 8_249,
+    "physics": 8_250,
     "record": 1_841,
     "reports": 1_006,
     "rl": 887,

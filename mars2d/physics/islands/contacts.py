@@ -165,12 +165,13 @@ class Touch:
         row: Row = self.first if self.base is None else self.base
         x: cython.double = row.normal_x
         y: cython.double = row.normal_y
+        whole: cython.double = length(self.impulse_x, self.impulse_y)
         turns: cython.bint = self.turn_x != 0.0 or self.turn_y != 0.0
+        turns = turns and self.push * self.push > 0.0 and whole * whole > 0.0  # not so weak
         if turns:
             x, y = self.push * x + self.turn_x, self.push * y + self.turn_y
             far: cython.double = length(x, y)
             x, y = x / far, y / far
-        whole: cython.double = length(self.impulse_x, self.impulse_y)
         along: cython.double = min(self.impulse_x * x + self.impulse_y * y, whole)
         across: cython.double = self.impulse_y * x - self.impulse_x * y
         if turns and abs(across) > self.steepest * along:
