@@ -55,21 +55,21 @@ def test_by_keys_alone_a_push_is_typed_and_a_mistake_is_said_in_place(open_windo
     window.press("w")
     window.says("Tab selects what is pushed")
     window.press("space", "Tab", "Tab", "Tab", "w")
-    question = window.shown._tools.question
-    assert question.field.text.endswith("N for 0.5 s at 0°")
+    prompts = window.shown._tools.prompts
+    assert prompts.prompt.text.endswith("N for 0.5 s at 0°")
     window.press("ctrl+a")
     window.type("much")
     window.press("Return")
-    assert "such as 3 N" in question._error
+    assert "such as 3 N" in prompts.prompt.error
     window.press("ctrl+a")
     window.type("30 N for 0.2 s at 90")
     window.press("Return")
     window.says("a push of 30 N for 0.2 s at 90")
-    assert question.field is None
+    assert prompts.prompt is None
     window.press("space")
     window.until(lambda s: s["props"][0][1] > -0.95)
     window.click(-2, -1, button=3)
     choose(window, "Push with a force ...")
-    assert "Push blue" in question._title
+    assert "Push blue" in prompts.prompt.label
     window.press("Escape")
-    assert question.field is None
+    assert prompts.prompt is None

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
-from typing import Literal, NamedTuple
+from typing import Literal
 
-from mars2d.core.errors import InputError, Mars2dError
+from mars2d.core.errors import InputError
 from mars2d.scenario.changes import check_same
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.document import Document
 from mars2d.window.editor.verdict import Judge
-from mars2d.window.widgets.menu import Entry, Menu
+from mars2d.window.widgets.menu import Menu
+from mars2d.window.widgets.prompt import Answer, Prompts
 from mars2d.window.widgets.text_field import TextField
 
 
@@ -26,48 +26,12 @@ class Outcome:
     when: Literal["now", "start"]
 
 
-class Answer(NamedTuple):
-    """A way to answer a prompt, by Enter, a click, or a key of its own.
-
-    act: takes the text that was typed; if it raises Mars2dError, the error is shown and the prompt
-    stays open.
-    """
-
-    words: str
-    act: Callable[[str], None] = lambda _: None
-    key: str = ""
-
-
-@dataclass
-class Prompt:
-    """A question over which nothing else can be done.
-
-    field: to type in, if there is one. doc: says more about it. fault: an error, and the text that
-    it is about.
-    """
-
-    label: str
-    field: TextField | None
-    doc: str
-    fault: tuple[str, str] = "", ""
-
-    @property
-    def text(self) -> str:
-        """What was typed so far."""
-        return "" if self.field is None else self.field.text
-
-    @property
-    def error(self) -> str:
-        """Why what was typed can't be taken, "" if it has not been refused."""
-        return self.fault[0] if self.fault[1] == self.text else ""
-
-
-class Dialogs:
+class Dialogs(Prompts):
     """Asks whether to save, run or apply a draft, and does it.
 
     before: the scenario that was opened. live: whether a paused run is edited. complete: finishes
-    the outline that is being drawn. prompt: the open question. done: whether the editor is left.
-    outcome: of a paused run. to_run: a file that is to be run.
+    the outline that is being drawn. done: whether the editor is left. outcome: of a paused run.
+    to_run: a file that is to be run.
     """
 
     def __init__(
@@ -82,45 +46,12 @@ class Dialogs:
         complete: Callable[[], object],
     ) -> None:
         """Start without a question."""
-        self.prompt: Prompt | None = None
+        super().__init__(menu)
         self.done = False
         self.outcome: Outcome | None = None
         self.to_run: Path | None = None
-        self._desk, self._menu, self._document, self._judge = desk, menu, document, judge
+        self._desk, self._document, self._judge = desk, document, judge
         self._before, self._live, self._complete = before, live, complete
-
-    def ask(
-        self,
-        label: str,
-        *answers: Answer,
-        field: TextField | None = None,
-        doc: str = "",
-        escape: str = "cancel",
-    ) -> None:
-        """Open a prompt, of which Enter gives the first answer; escape: what Esc does, in words."""
-        self._show(Prompt(label, field, doc), [*answers, Answer(escape, key="Esc")])
-
-    def _show(self, prompt: Prompt, answers: Sequence[Answer]) -> None:
-        self.prompt = prompt
-
-        def answer(chosen: Answer) -> None:
-            self.prompt = None
-            try:
-                chosen.act(prompt.text)
-            except Mars2dError as error:
-                prompt.fault = str(error), prompt.text
-                self._show(prompt, answers)
-
-        def entries() -> list[Entry]:
-            tone = "warning" if prompt.error else "note"
-            told = [Entry(prompt.error or prompt.doc, tone=tone)] if prompt.field else []
-            ways = [
-                Entry(each.words, partial(answer, each), each.key, value="Enter" * (not each.key))
-                for each in answers
-            ]
-            return [Entry(prompt.label, field=prompt.field), *told, *ways]
-
-        self._menu.open("prompt", entries, (0, 0), asks=True)
 
     def _valid(self, doing: str) -> Scenario | None:
         """Return the scenario; show why there is none if the draft is not valid."""

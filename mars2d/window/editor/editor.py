@@ -22,7 +22,7 @@ from mars2d.output.raster.stage import Stage
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor.actions import TOOLS, actions_of
 from mars2d.window.editor.desk import Desk
-from mars2d.window.editor.dialogs import Answer, Dialogs
+from mars2d.window.editor.dialogs import Dialogs
 from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.header import Header
@@ -40,6 +40,7 @@ from mars2d.window.widgets.actions import action_of, label_of
 from mars2d.window.widgets.buttons import Buttons
 from mars2d.window.widgets.help import Help
 from mars2d.window.widgets.menu import Menu
+from mars2d.window.widgets.prompt import Answer
 from mars2d.window.widgets.slider import draw_tooltip
 from mars2d.window.widgets.text_field import TextField
 

@@ -26,12 +26,13 @@ from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
 from mars2d.window.editor.desk import Desk
-from mars2d.window.editor.dialogs import Answer, Dialogs
+from mars2d.window.editor.dialogs import Dialogs
 from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.item import Item
 from mars2d.window.editor.readout import described, minus
 from mars2d.window.widgets.menu import Entry, Menu
+from mars2d.window.widgets.prompt import Answer
 from mars2d.window.widgets.text_field import TextField
 
 Items = tuple[Item, ...]

@@ -108,7 +108,7 @@ def pushed(text: str, heading: float) -> tuple[Point, float]:
     """
     found = TYPED.fullmatch(text.strip())
     if found is None:
-        raise InputError(f"{shown(text)}: expected {EXPECTED}")
+        raise InputError(f"{shown(text)}: expected a force, {EXPECTED}")
     newtons, seconds, sign, angle = found.groups()
     way = heading if angle is None else radians(float(sign + angle))
     force = float(newtons) * cos(way), float(newtons) * sin(way)

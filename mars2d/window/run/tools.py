@@ -8,21 +8,27 @@ from mars2d.core.plane import Point
 from mars2d.window.run.director import Director
 from mars2d.window.run.measure import Ruler, Stopwatch
 from mars2d.window.run.push import EXPECTED, pushed, suggested
-from mars2d.window.run.question import Question
 from mars2d.window.screen.player import Player
 from mars2d.window.screen.selection import Selection
+from mars2d.window.widgets.menu import Menu
 from mars2d.window.widgets.notes import Notes
+from mars2d.window.widgets.prompt import Answer, Prompts
+from mars2d.window.widgets.text_field import TextField
 from mars2d.world.operator import forceless
 
 
 class Tools:
-    """The tools of a run window. actions: what takes them up, by name."""
+    """The tools of a run window.
+
+    actions: what takes them up, by name. menu: where they ask.
+    """
 
     def __init__(
         self, player: Player, director: Director, selection: Selection, notes: Notes
     ) -> None:
         """Put all of them away."""
-        self.ruler, self.stopwatch, self.question = Ruler(), Stopwatch(), Question()
+        self.ruler, self.stopwatch, self.menu = Ruler(), Stopwatch(), Menu()
+        self.prompts = Prompts(self.menu)
         self._player, self._director = player, director
         self._selection, self._notes = selection, notes
         self.actions: dict[str, Callable[[], None]] = {
@@ -61,5 +67,7 @@ class Tools:
                 if self._director.change(lambda world: world.operator.push(body, force, seconds)):
                     self._notes.say(f"a push of {text.strip()}")
 
+            field = TextField(suggested(frame, body), opened_by_key=True)
+            field.select_all()
             name = frame.scenario.bodies[body].name
-            self.question.ask(f"Push {name}, {EXPECTED}", suggested(frame, body), push)
+            self.prompts.ask(f"Push {name}", Answer("push", push), field=field, doc=EXPECTED)

@@ -344,7 +344,7 @@ class Window(PlayerWindow):
             self._before.draw(surface, self.viewpoint.room, layout.plot, self.camera, frame)
         if notes:
             self.toolbar.draw(surface, layout, self._painter, self._pointer)
-            self._tools.question.draw(surface, layout.plot, self._painter)
+            self._tools.menu.draw(surface, layout.plot, self._painter)
         self.help.draw(surface, layout, self._painter, keys.GROUPS.items())
 
     def _selected_pixel(self, frame: Frame) -> tuple[float, float] | None:
@@ -404,7 +404,7 @@ class Window(PlayerWindow):
     # -- events ---------------------------------------------------------------------------------
 
     def _take(self, event: pygame.Event) -> bool:
-        if self._tools.question.handle(event):
+        if self._tools.menu.handle(event):
             return True
         over = self.editor is None and self.toolbar.menu.is_open and self.toolbar.handle(event)
         if not over and self.director.handle(event):
