@@ -13,7 +13,7 @@ from mars2d.window.panels.lesson import Lesson
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.dock import Dock, Panel
 from tests.cases import each_case
-from tests.window.written import painter
+from tests.window.written import Written, painter
 
 SIZES = [(1280, 720, 1.0), (1920, 1080, 1.0), (1024, 768, 1.7), (800, 600, 1.0)]
 SQUARE = [(-5, -5), (5, -5), (5, 5), (-5, 5)]
@@ -178,3 +178,15 @@ def test_a_panel_without_anything_to_show_is_remembered_all_the_same(tmp_path):
         assert lesson.is_open == shown
         assert dock.opened == ["lesson"]
     assert lesson.parts == [("", "Long."), ("Question", "How far?"), ("Measured", "A way.")]
+
+
+def test_what_scrolls_is_wrapped_beside_its_bar(tmp_path):
+    words = " ".join(["at"] * 400)  # a line may end anywhere
+    (tmp_path / "long.py").write_text(f'"""Long.\n\nQuestion: {words} Measured: a way.\n"""\n')
+    pen = painter(Layout.of((300, 120), text=1.0, controls=True), Painter().theme)
+    lesson, surface = Lesson(pen, tmp_path / "long.py"), Written((300, 120))
+    for width in range(270, 300):
+        lesson.draw(surface, pygame.Rect(0, 0, width, 120), frame_of(SQUARE))
+        assert lesson.cut
+    assert surface.texts
+    assert not [text for text in surface.texts if "…" in text]

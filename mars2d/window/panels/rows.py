@@ -69,8 +69,10 @@ class RowsPanel(Panel):
         room = pygame.Rect(rect.topleft, (rect.width, rect.height - round(_high(foot) * ui)))
         self.room = room.height / ui
         columns = self._flowed(rows, self._count(width))
+        self.cut = max(map(_high, columns)) > self.room + 2
+        if self.cut:  # the bar takes some of the width
+            columns = self._flowed(self.rows(frame, width - BAR), self._count(width))
         whole = max(map(_high, columns))
-        self.cut = whole > self.room + 2
         self.scroll = min(max(self.scroll, 0.0), max(0.0, whole - self.room))
         clip = surface.get_clip()
         surface.set_clip(room.clip(clip))
