@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from mars2d.bodies.drives.base import Drive
 from mars2d.core.arithmetic import norm
 
 RISE, FALL = 4.0, 8.0
@@ -24,6 +25,11 @@ class Stick(NamedTuple):
         """Return the same direction with a deflection of at most `most`."""
         share = most / max(norm(self.across, self.ahead), most)
         return Stick(share * self.across, share * self.ahead, self.turn)
+
+    def command(self, drive: Drive) -> tuple[float, ...]:
+        """Return the command of a drive that it asks for; it turns those of three inputs alone."""
+        stick = self.within() if drive.frame == "world" else self
+        return drive.steered(*stick[: 3 if len(drive.inputs) > 2 else 2])
 
 
 def ramped(stick: Stick, wanted: Stick, duration: float) -> Stick:

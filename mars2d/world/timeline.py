@@ -387,7 +387,7 @@ class Timeline:
         self.world = world
         self.remark = self._past.doubt
         self._past.forget_after(row)
-        world.simulation.watch = watch_by(self._watchers)
+        world.watch = watch_by(self._watchers)
         self._write(row)
 
     @property

@@ -57,7 +57,7 @@ class World(WorldView):
             raise wrong("World.scenario", scenario, "a Scenario")
         kept = storage if record else None
         super().__init__(Simulation(scenario, check_seed(seed), filename, kept, options or {}))
-        self._simulation.watch = watch
+        self.watch = watch
         view = WorldView(self._simulation)
         positions = self.scenario.sees == "positions"
         team_view = TeamPositionsView(self._simulation) if positions else view
@@ -83,6 +83,15 @@ class World(WorldView):
             options=before.recorder.options,
             record=before.storage is not None,
         )
+
+    @property
+    def watch(self) -> Watcher | None:
+        """Called with the world once a control step; may be set again."""
+        return self._simulation.watch
+
+    @watch.setter
+    def watch(self, watch: Watcher | None) -> None:
+        self._simulation.watch = watch
 
     simulation: Simulation = through("_simulation")
     """The machinery behind it, for programs that rebuild or follow a run."""

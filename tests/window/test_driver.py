@@ -66,6 +66,18 @@ def test_full_speed_leaves_the_wheels_what_they_need_to_turn(drive, stick):
     assert omega == pytest.approx(-1.5 * stick.across)
 
 
+class Tank(Unicycle):
+    """A drive of a person's own, whose stick has two directions."""
+
+    def steered(self, across, ahead):
+        return ahead, across
+
+
+def test_a_drive_of_ones_own_is_asked_for_the_directions_that_it_has(driver):
+    driver.handle(key(UP))
+    assert settled(driver, Tank()) == (1.0, 0.0)
+
+
 def test_a_car_steers():
     car = Car(max_steering=0.4, max_linear_speed=2.0)
     assert car.steered(*Stick(-0.5, 1)) == (2.0, 0.2)

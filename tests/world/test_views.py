@@ -51,7 +51,7 @@ MORE = {
 
 OF_WHO_RUNS_IT = {
     "break_off", "change", "control", "energy", "momentum", "operator", "recorder",
-    "reset", "simulation",
+    "reset", "simulation", "watch",
 }  # fmt: skip
 """What a World has and no law."""
 

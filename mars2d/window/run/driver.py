@@ -127,7 +127,7 @@ class Driver:
         Keys deflect the stick gradually, in a quarter of a second, so that a tap is a nudge.
         """
         self._stick = ramped(self._stick, self._wanted, dt)
-        return drive.steered(*(self._stick.within() if drive.frame == "world" else self._stick))
+        return self._stick.command(drive)
 
     @property
     def _wanted(self) -> Stick:

@@ -259,9 +259,9 @@ class Play:
 
 def _live_keys(drive: Drive, driver: Driver) -> tuple[str, ...]:
     """Return the labels of the keys that change a drive's command."""
-    rest = drive.steered(*Stick())
+    rest = Stick().command(drive)
     pairs = zip(driver.keys.labels, WAYS, strict=True)
-    return tuple(label for label, way in pairs if drive.steered(*way) != rest)
+    return tuple(label for label, way in pairs if way.command(drive) != rest)
 
 
 def _news(before: Tally, won: bool | None, time: float | None) -> str:
