@@ -196,7 +196,7 @@ class Scenario(Description):
         self._check_joints()
         for fault in starts.faults(self, self.bodies):
             raise InputError(fault.told(self))
-        self.ends_by(0, 0)
+        _ = self._ending  # refuses names that are not there
 
     def _circle_of_robots(self, count: int) -> tuple[Robot, ...]:
         """Place robots round a circle, facing its centre, as MARS does without an Initial_pose."""
