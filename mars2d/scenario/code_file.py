@@ -6,6 +6,7 @@ import importlib.util
 import inspect
 import itertools
 import sys
+import threading
 import traceback
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
@@ -21,6 +22,7 @@ from mars2d.core.hints import described
 from mars2d.scenario.policy import SUFFIX, Policy
 
 _counter = itertools.count()
+_running = threading.RLock()  # modules and the path belong to all threads
 
 
 def module_in(
@@ -36,30 +38,32 @@ def module_in(
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
-    before = set(sys.modules)
-    sys.modules[name] = module  # dataclasses look up a class's module by name
-    folder = str(path.parent.absolute())
-    sys.path.insert(0, folder)  # an experiment may import what lies beside it
-    # If a file is saved twice within a second, compiled code of the first would be taken as new.
-    keeps, sys.dont_write_bytecode = sys.dont_write_bytecode, True
-    try:
-        spec.loader.exec_module(module)
-    except SyntaxError as error:
-        line = one_line((error.text or "").strip(), 100)
-        file = Path(error.filename or path)
-        note_file(file)
-        place = f"{file.name}, line {error.lineno}" if error.lineno else file.name
-        raise located(place, ": ".join(filter(None, [error.msg, line]))) from error
-    except (Exception, SystemExit) as error:
-        raise located(line_in(error, path), described(error)) from error
-    finally:
-        sys.path.remove(folder)
-        sys.dont_write_bytecode = keeps
-        for other in set(sys.modules) - before:  # lest they are taken for those of another folder
-            source = getattr(sys.modules[other], "__file__", None)
-            if source is not None and str(Path(source).parent) == folder:
-                note_file(Path(source))
-                del sys.modules[other]
+    with _running:
+        before = set(sys.modules)
+        sys.modules[name] = module  # dataclasses look up a class's module by name
+        folder = str(path.parent.absolute())
+        sys.path.insert(0, folder)  # an experiment may import what lies beside it
+        # Compiled code of a file that is saved twice within a second would be taken as new.
+        keeps, sys.dont_write_bytecode = sys.dont_write_bytecode, True
+        try:
+            spec.loader.exec_module(module)
+        except SyntaxError as error:
+            line = one_line((error.text or "").strip(), 100)
+            file = Path(error.filename or path)
+            note_file(file)
+            place = f"{file.name}, line {error.lineno}" if error.lineno else file.name
+            raise located(place, ": ".join(filter(None, [error.msg, line]))) from error
+        except (Exception, SystemExit) as error:
+            raise located(line_in(error, path), described(error)) from error
+        finally:
+            sys.path.remove(folder)
+            sys.dont_write_bytecode = keeps
+            # What it imported goes, lest it is taken for what lies in another folder.
+            for other in set(sys.modules) - before:
+                source = getattr(sys.modules[other], "__file__", None)
+                if source is not None and str(Path(source).parent) == folder:
+                    note_file(Path(source))
+                    del sys.modules[other]
     return module
 
 

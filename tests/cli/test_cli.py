@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 
 import mars2d
 from mars2d.cli import command_line as cli
+from mars2d.scenario.experiment import open_experiment
 from tests.cases import each_case
 from tests.processes import PATIENCE, mars, wait_until
 
@@ -202,6 +204,21 @@ def test_an_experiment_may_import_what_lies_beside_it_and_two_do_not_meet(tmp_pa
     ends = [mars2d.run(tmp_path / str(k) / "main.py").time[-1] for k in (1, 2)]
     assert ends == [1.0, 2.0]
     assert "helper" not in sys.modules
+
+
+def test_experiments_may_be_opened_by_several_threads_at_once(tmp_path):
+    (tmp_path / "helper.py").write_text("END = 1\n")
+    (tmp_path / "main.py").write_text(
+        "import sys, time\nfrom dataclasses import dataclass\nfrom mars2d import Scenario\n"
+        "for _ in range(20):\n    time.sleep(0)  # lets other threads run\n"
+        "from helper import END\n@dataclass\nclass Goal:\n    time: 'float' = END\n"
+        "assert sys.dont_write_bytecode\nscenario = Scenario(stop_time=Goal().time)\n"
+    )
+    with ThreadPoolExecutor(4) as pool:
+        opened = list(pool.map(open_experiment, [tmp_path / "main.py"] * 40))
+    assert [experiment.scenario.stop_time for experiment in opened] == [1] * 40
+    assert "helper" not in sys.modules
+    assert str(tmp_path) not in sys.path
 
 
 # -- experiments that check themselves --------------------------------------------------------
