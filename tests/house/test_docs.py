@@ -24,13 +24,15 @@ import os
 import re
 import shlex
 import shutil
-from collections.abc import Iterator
+import sys
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields, is_dataclass
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 import pytest
+from PIL import Image
 
 import mars2d
 import mars2d.rl
@@ -72,6 +74,10 @@ MEASURED = {
 }  # fmt: skip
 """Pictures that no block makes: `benchmarks/growth.py` and `docs/make/pursuit.py` take minutes, a
 page needs a browser, a window somebody at the keys."""
+
+sys.path.insert(0, str(ROOT / "docs" / "make"))
+DRAWN: dict[str, Callable[[Path], None]] = importlib.import_module("pictures").PICTURES
+"""Pictures of windows, which `docs/make/pictures.py` makes."""
 
 LANGUAGES = {"python", "toml", "console", "text", "matlab", ""}
 
@@ -222,10 +228,20 @@ def test_a_document_does_what_it_says(document, tmp_path, monkeypatch):
     Reader(document).read()
     if document in SENSORS:
         return  # their pictures are made by docs/make/sensors.py
-    for name in set(pictures(document)) - MEASURED:
+    for name in set(pictures(document)) - MEASURED - {f"{each}.png" for each in DRAWN}:
         assert (tmp_path / name).is_file(), f"{name} was not made"
         if os.environ.get("MARS2D_PICTURES") == "new":
             shutil.copy(tmp_path / name, ROOT / "docs" / "pictures" / name)
+
+
+@pytest.mark.slow
+@pytest.mark.nightly
+@each_case("name", list(DRAWN))
+def test_the_pictures_of_windows_are_made(name, tmp_path):
+    DRAWN[name](tmp_path / f"{name}.png")
+    with Image.open(tmp_path / f"{name}.png") as made:
+        with Image.open(ROOT / "docs" / "pictures" / f"{name}.png") as shown:
+            assert made.size == shown.size
 
 
 @each_case("document", DOCUMENTS)
