@@ -123,7 +123,7 @@ def scopes(path: Path) -> None:
 
 def hands(path: Path) -> None:
     """Draw a crate that somebody pulls."""
-    ahead = Robot(controller=lambda robot: (0.1, 0.0))
+    ahead = Robot(controller=lambda _: (0.1, 0.0))
     robots = [ahead.at(-0.8 + 0.5 * k, -0.3 + 0.5 * (k % 3)) for k in range(5)]
     crate = Box(name="crate", pose=(-1.2, -0.9, 0.3), length=0.6, width=0.4, mass=4.0)
     room = [(-2.4, -1.4), (2.4, -1.4), (2.4, 1.4), (-2.4, 1.4)]
