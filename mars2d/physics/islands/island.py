@@ -451,16 +451,14 @@ class Island:
         body: Body
         pair: Pair
         tie: Tie
-        spin: cython.double
         for body in self.bodies:
             body.look()
         for body in self.bodies:
             h = min(h, body.time_to_turn(accuracy.entry / 8))
         for pair in self.pairs:
             h = pair.time_to_touch(h, self.depth_of(pair))
-            if pair.gap <= accuracy.closed:
-                spin = pair.a.spin - (0.0 if pair.is_wall else pair.b.spin)
-                h = min(h, max(settings.CONTACT_TURN / max(abs(spin), 1e-300), 1e-3))
+            if pair.gap <= accuracy.slop and not (pair.a.is_robot and pair.b.is_robot):
+                h = min(h, max(settings.CONTACT_TURN / max(pair.turns(), 1e-300), 1e-3))
         for tie in self.ties:
             h = min(h, tie.time_to_jerk(accuracy.stretch, accuracy.joint_tolerance))
         return left / ceil(left / h - 1e-9)  # equal substeps settle best, and leave no sliver
