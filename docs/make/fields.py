@@ -65,10 +65,10 @@ HEAD = """\
 
 Every field that an experiment can set: its default and unit, what it accepts, what it means. All
 values are checked when an object is made: anything else is an error that names the field. (0, 10]
-is more than 0 and at most 10. What has no default must be given. Fields are given by name, as in
-`Robot(diameter=0.2)`; those marked with * also without it, in their order, as in `Disc(0.2)`.
-Colours are `#rrggbb` or a name. `object.replace(field=value)` returns a copy with some fields
-changed.
+is more than 0 and at most 10; bounds from 1000 on are left out. What has no default must be given.
+Fields are given by name, as in `Robot(diameter=0.2)`; those marked with * also without it, in their
+order, as in `Disc(0.2)`. Colours are `#rrggbb` or a name. `object.replace(field=value)`
+returns a copy with some fields changed.
 
 Each class has its own fields and those of its family: of [Drive](#drive), [Prop](#prop),
 [Joint](#joint), [Sensor](#sensor), [Controller](#controller) or [Addon](#addon).
@@ -190,6 +190,7 @@ def accepts(kind: type[Description], field: dataclasses.Field[Any]) -> str:
                 expected += ", or None"
     expected = SHORT.get(expected, expected).replace(f" [{field.metadata['unit']}]", "")
     expected = expected.replace("a list, ", "").replace(" in metres", "")
+    expected = re.sub(r"^a number >=? \S+ and <= [^\s,]*(e\+|000)\d*(, )?", "", expected)
     expected = re.sub(
         r"a number (>=?) (\S+) and (<=?) ([^\s,]+(?: pi)?)",
         lambda m: f"in {'[' if m[1] == '>=' else '('}{m[2]}, {m[4]}{']' if m[3] == '<=' else ')'}",

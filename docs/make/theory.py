@@ -437,14 +437,14 @@ def used(p: Prediction) -> float:
 
 def table(rows: Sequence[tuple[str, Prediction]], first: str) -> str:
     """Return predictions as a table of Markdown."""
-    lines = [f"| {first} | predicted | measured | tolerance | |", "|---|---|---|---|---|"]
+    lines = [f"| {first} | predicted | measured | tolerance |", "|---|---|---|---|"]
     for name, p in rows:
         unit = f" {p.unit}" if p.unit else ""
         rough = p.bound == "equal" and p.predicted and p.tolerance > 0.1 * abs(p.predicted)
-        mark = f"ok{', rough' * bool(rough)}" if p.ok else f"**{p.verdict}**"
+        mark = ", rough" * bool(rough) if p.ok else f", **{p.verdict}**"
         lines.append(
             f"| {name}{p.name} | {SIGNS[p.bound]}{p.predicted:.5g}{unit} | {measured(p)}{unit} "
-            f"| {p.tolerance:.2g} | {mark} |"
+            f"| {p.tolerance:.2g}{mark} |"
         )
     return "\n".join(lines) + "\n"
 
