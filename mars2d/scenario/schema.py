@@ -23,9 +23,8 @@ LAW: Schema = {
 def schema() -> Schema:
     """Return the JSON Schema (2020-12) of the data in a scenario file.
 
-    It knows the parts that other packages have registered. It accepts every file that
-    `save_scenario` writes, and refuses every number beyond the bounds of its field. Conditions
-    between fields, such as robots that overlap, are beyond it.
+    It accepts every file that `save_scenario` writes, and refuses every number beyond the bounds of
+    its field. Conditions between fields, such as robots that overlap, are beyond it.
     """
     places = [place for fields in serialize.PARTS.values() for place in fields.values()]
     bases = {place.base for place in (*places, READY_MADE)}

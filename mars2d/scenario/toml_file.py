@@ -382,7 +382,7 @@ def takes_none(field: dataclasses.Field[Any]) -> bool:
 def _accepts(check: Check, value: object) -> bool:
     try:
         check("", value)
-    except Exception:  # another package's check may refuse by any error
+    except Exception:  # a user's own check may refuse by any error
         return False
     return True
 
