@@ -140,17 +140,6 @@ def test_a_run_that_takes_too_long_is_a_row_that_names_the_line(here):
     assert (ends.error, bool(ends.digest)) == ("", True)
 
 
-def test_units_are_stated_with_the_sweep_or_with_its_table(here, capsys):
-    words = ["--set", "gain=1", "--measure", "far", "--workers", "1", "--out", "r.csv"]
-    assert main(["sweep", "drift.py", *words, "--unit", "far=m"]) == 0
-    assert main(["sweep", "r.csv", "--unit", "gain=1/s"]) == 0
-    first, again = capsys.readouterr().out.split("table:  r.csv\n", 1)
-    assert "far [m]" in first
-    assert "gain = 1 1/s" in again
-    assert "far [m]" in again
-    assert sweep({"gain": [1]}, 1, out="r.csv", units={"far": "m"}).units == {"far": "m"}
-
-
 # -- what stops after a few runs -------------------------------------------------------------------
 
 

@@ -8,7 +8,7 @@ from math import dist
 from pathlib import Path
 from typing import Any
 
-from mars2d.cli.arguments import MANY, Output, option, preferences_of, shared, workers_of
+from mars2d.cli.arguments import MANY, Output, option, preferences_of, shared
 from mars2d.cli.runs import has_display
 from mars2d.core.errors import InputError, Mars2dError, counted, one_line
 from mars2d.core.scene import NAMED, rgb
@@ -51,7 +51,7 @@ ARGUMENTS = {
     "--match": option("N", "play only this match, again", int),
     "--view": option(None, "with --match: show it in a window"),
     "--record": option("OUT", "with --match: save all its data", Path, action=Output),
-    **shared("workers cluster dark text"),
+    **shared("workers dark text"),
 }
 
 
@@ -123,13 +123,10 @@ def _play_all(arguments: argparse.Namespace, planned: Schedule, path: Path) -> N
     tell(f"{planned.rules.title}: {who}: {matches_of(count)}{known}")
     replays = not arguments.no_replays
     interrupt = None
-    with workers_of(arguments) as (executor, workers):
-        try:
-            result = play_schedule(
-                planned, path, executor=executor, workers=workers, replays=replays
-            )
-        except TournamentInterrupted as error:
-            result, interrupt = error.tournament, error
+    try:
+        result = play_schedule(planned, path, workers=arguments.workers, replays=replays)
+    except TournamentInterrupted as error:
+        result, interrupt = error.tournament, error
     if result.matches:
         tell(f"\n{league_text(result)}\n\npage: {path / PAGE}")
     if interrupt is not None:

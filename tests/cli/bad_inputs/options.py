@@ -84,7 +84,6 @@ OF_SWEEP = [
      "--compare sampling_time", "one value"),
     ("no workers", "random_walk --workers 0", "workers=0"),
     ("a row of nothing", "--row 1", "--row 1", "no study"),
-    ("a cluster that is no address", "random_walk --cluster nowhere", "nowhere"),
     ("a study that is not there", "a.csv", "a.csv", "No such file"),
 ]  # fmt: skip
 
