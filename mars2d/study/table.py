@@ -202,12 +202,6 @@ def _line(cells: Iterable[str]) -> bytes:
 # -- reading files ---------------------------------------------------------------------------------
 
 
-def is_table(path: Path) -> bool:
-    """Return whether a file begins like the table of a study."""
-    with path.open("rb") as file:
-        return file.read(200).decode("utf-8-sig", "replace").startswith(",".join(FIRST) + ",")
-
-
 def parse_table(data: bytes, path: Path) -> Table:
     """Return the table in the content of a file. Raises InputError, which names the line."""
     try:

@@ -383,18 +383,6 @@ def test_interrupted_and_killed_it_goes_on_and_the_file_is_that_of_one_worker(he
     assert (here / "r.csv").read_bytes() == (here / "one.csv").read_bytes()
 
 
-def test_a_row_is_run_again_alone(here, capsys):
-    sweep({"gain": [0.5, 1.0]}, 2, ["far", "word"], out="sweep.csv")
-    capsys.readouterr()
-    assert main(["sweep", "--row", "3", "--view", "--html", "run.html", "--record", "run.npz"]) == 0
-    out, errors = capsys.readouterr()
-    assert out.startswith("row 3 of sweep.csv: drift.py, gain = 1.0, seed 0\n")
-    assert out.endswith(", the same\nrecord: run.npz\npage:   run.html\n")
-    assert "there is no display, so this runs without a window" in errors
-    assert mars2d.load("run.npz").digest == Table.load("sweep.csv").results[2].digest
-    assert (here / "run.html").stat().st_size > 10_000
-
-
 def test_a_table_that_is_there_is_summed_up_compared_and_drawn(here, capsys):
     sweep({"gain": [0.5, 1.0]}, 3, out="r.csv")
     before = runs(here)

@@ -7,7 +7,6 @@ from pathlib import Path
 
 from mars2d.cli.arguments import MANY, Output, option, refuse, shared
 from mars2d.cli.outputs import conclude, produced
-from mars2d.cli.row import show_row
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.terminal import tell
 from mars2d.output.figures.style import STYLES, style_of
@@ -16,7 +15,7 @@ from mars2d.study.plan import parse_all, seeds_of
 from mars2d.study.run import sweep
 from mars2d.study.statistics import confident
 from mars2d.study.summary import comparison, summary
-from mars2d.study.table import Table, is_table
+from mars2d.study.table import Table
 
 TABLE = Path("sweep.csv")
 """The default file of the rows."""
@@ -30,7 +29,7 @@ _MEASURE = "a function of the record in the experiment's file, or a built-in one
 _KEEP = "keep the records beside the table; other measures then need no run"
 
 ARGUMENTS = {
-    "experiment": option("EXPERIMENT", _FILE, nargs="?"),
+    "experiment": option("EXPERIMENT", _FILE),
     "--set": option("KEY=VALUES", _VALUES, **MANY),
     **shared("stop-time"),
     "--seeds": option("N", "number of seeds, the same at each point (1)", int),
@@ -45,31 +44,16 @@ ARGUMENTS = {
     "--retry": option(None, "run rows with an error again"),
     "--keep": option(None, _KEEP),
     **shared("workers"),
-    "--row": option("N", "run one row of a study again", int),
-    "--view": option(None, "with --row: show it in a window"),
-    "--record": option("OUT", "with --row: save all data of the run", Path, action=Output),
-    **shared("html dark text"),
 }
 
 
 def execute(arguments: argparse.Namespace) -> None:
-    """Run an experiment over settings and seeds into a table, or one of its rows again."""
-    given = arguments.experiment or ""
-    if arguments.row is not None:
-        refuse(
-            arguments,
-            f"{OF_RUNS} compare style",
-            "does not go with --row N: that runs as it was",
-        )
-        show_row(arguments, _table_here(arguments))
-        return
+    """Run an experiment over settings and seeds into a table."""
+    given = arguments.experiment
     if arguments.figure is None:
         refuse(arguments, "style", "needs --figure OUT: it is of a figure")
     style_of(arguments.style or "screen")
     confident(arguments.confidence)
-    refuse(arguments, "view record html", "needs --row N: it is of one run")
-    if not given:
-        raise InputError("an EXPERIMENT is needed, or --row N of a study that is there")
     if given.lower().endswith(".csv"):
         refuse(arguments, OF_RUNS, f"is for new runs: {given} is there already")
         _report(arguments, Table.load(given), Path(given))
@@ -78,22 +62,6 @@ def execute(arguments: argparse.Namespace) -> None:
         _report(arguments, _swept(arguments, out), out)
         if arguments.keep:
             tell(f"records: {records_beside(out)}")
-
-
-def _table_here(arguments: argparse.Namespace) -> Path:
-    """Return the file with the row: as given, or the newest study in this folder."""
-    row, given = arguments.row, arguments.experiment
-    if given is not None:
-        if not given.lower().endswith(".csv"):
-            raise InputError(f"--row {row}: expected the .csv of a study, not {given}")
-        return Path(given)
-    tables = [path for path in Path().glob("*.csv") if path.is_file() and is_table(path)]
-    if not tables:
-        raise InputError(
-            f"--row {row}: there is no study in this folder; name its file, as "
-            f"mars2d sweep results.csv --row {row}"
-        )
-    return max(tables, key=lambda path: path.stat().st_mtime_ns)
 
 
 def _swept(arguments: argparse.Namespace, out: Path) -> Table:

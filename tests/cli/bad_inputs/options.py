@@ -83,7 +83,6 @@ OF_SWEEP = [
     ("a comparison of one value", "random_walk --set sampling_time=1 --compare sampling_time",
      "--compare sampling_time", "one value"),
     ("no workers", "random_walk --workers 0", "workers=0"),
-    ("a row of nothing", "--row 1", "--row 1", "no study"),
     ("a study that is not there", "a.csv", "a.csv", "No such file"),
 ]  # fmt: skip
 
