@@ -53,7 +53,6 @@ OUTPUTS = {
     "figure": figure.SUFFIXES,
     "video": film.SUFFIXES,
     "html": (".html", ".htm"),
-    "rules": (".html", ".htm"),
     "out": (".csv",),
 }
 """The arguments that name output files, with their possible suffixes."""

@@ -107,7 +107,7 @@ def test_a_sweep_comes_to_the_same_bytes_by_whoever_does_it(executor, tmp_path):
 def test_a_tournament_is_played_by_a_cluster(executor):
     players = sorted((examples()["sumo"].parent / "players").glob("*.py"))[:2]
     matches = mars2d.tournament(
-        "sumo", players=players, seeds=1, stop_time=2, executor=executor, replays=False
+        "sumo", players=players, seeds=1, stop_time=2, executor=executor
     ).matches
     assert [(match.steps, match.verdicts, match.error) for match in matches] == [(100, {}, "")] * 2
 

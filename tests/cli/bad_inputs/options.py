@@ -57,7 +57,6 @@ OF_OTHERS = [
         "random_walk",
         "who has won",
     ),
-    ("rules of no page", "mars2d tournament sumo --rules a.txt", "--rules a.txt", ".html"),
     ("an edit without a display", "mars2d edit random_walk", "no display"),
     (
         "a comparison of physics by hand",
