@@ -26,7 +26,7 @@ from mars2d.scenario.policy import SUFFIX as LEARNED
 from mars2d.scenario.policy import Policy
 from mars2d.scenario.robot import Robot
 from mars2d.testing.file import trials
-from mars2d.testing.finding import Finding
+from mars2d.testing.subject import Finding
 from mars2d.tournaments.isolation.limits import LIMITS
 from mars2d.tournaments.match import play
 from mars2d.tournaments.schedule import trial_matches
@@ -181,7 +181,7 @@ def _try_all(module: ModuleType, experiment: Experiment | None, limit: Deadline)
         found = trial.findings()
         findings = [finding for finding in found if finding not in said]
         said |= {*findings}
-        faults = [f for f in findings if f.kind == "wrong" and not f.untried]
+        faults = [finding for finding in findings if not finding.untried]
         hints = len(findings) - len(faults)
         verdict = "not tried to the end" if any(f.untried for f in found) else "sound"
         if faults:
