@@ -224,7 +224,7 @@ class Game(Elimination):
             who = f"{names[self.safe[0]]} has" if evaders == 1 else f"{count} of {evaders} have"
             return f"{who} reached the goal after {world.time:g} s{won}"
         if self.goal is not None:
-            return f"time is over after {world.time:g} s{won}"
+            return f"finished after {world.time:g} s{won}"
         count, done = len(self.free), "seen" if self.capture == SIGHT else "caught"
         who = f"{count} of {evaders} were" if evaders > 1 else f"{names[self.free[0]]} was"
         return f"{who} not {done} in {world.time:g} s{won}"
@@ -270,7 +270,7 @@ class Game(Elimination):
             SIGHT: f"sees {evader}, with no obstacle between their middles",
         }.get(str(self.capture), f"comes within {self.capture} m of {evader}, middle to middle")
         hunters_win, evaders_win = wins(hunting), wins(evading)
-        over = f"{self.par:g} s are over" if self.par else "time is over"
+        over = f"{self.par:g} s are over" if self.par else "time runs out"
         in_goal = f"The {evaders_win} when {_so_many_are(count, needed)} in the goal"
         if self.capture is None:
             return f"Nobody is caught. {in_goal}. If {over} before, the {hunters_win}."

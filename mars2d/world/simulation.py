@@ -289,7 +289,7 @@ class Simulation(State):
         self._check_workspace()
         self._check_contacts()
         if self.iteration >= self.scenario.last_iteration and not self.endless:
-            self.stop(f"Time is over: {self.time:g} s")
+            self.stop(f"finished after {self.time:g} s")
         if self.over:
             self._hooks.call("on_stop", self.world)
             self.draw_addons(self._drawn)

@@ -69,7 +69,7 @@ def test_some_are_safe_and_others_caught_and_it_goes_on_until_it_is_decided():
     assert world.record.command[10:, 0, 2].tolist() == [0.0] * (len(world.record) - 10)
     assert game.caught == (1,)
     assert game.winner == "guard"  # two were needed, one more is free at the end
-    assert world.over_message == "time is over after 10 s: guard wins"
+    assert world.over_message == "finished after 10 s: guard wins"
 
 
 def test_the_evaders_have_won_when_too_many_are_safe():

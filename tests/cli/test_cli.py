@@ -252,7 +252,7 @@ def roll(tmp_path):
 def test_a_run_prints_what_was_predicted_and_measured_after_its_outcome(roll, capsys):
     assert cli.main(["run", str(roll), "--headless"]) == 0  # a wrong prediction is no wrong input
     outcome, *rest = capsys.readouterr().out.splitlines()
-    assert "Time is over: 2 s" in outcome
+    assert "finished after 2 s" in outcome
     assert rest == [
         "",
         "How far does a robot roll?",
@@ -291,7 +291,7 @@ def test_checks_that_fail_lose_no_data(roll, tmp_path, capsys, options):
     shown = capsys.readouterr()
     assert shown.err.startswith("mars2d: roll.py, line 16: checks raised IndexError")
     assert shown.err.count("\n") == 1
-    assert ("Time is over: 2 s" in shown.out) is not bool(options)
+    assert ("finished after 2 s" in shown.out) is not bool(options)
     assert mars2d.load(paths[0]).finished
     assert all(path.stat().st_size > 100 for path in paths)
 

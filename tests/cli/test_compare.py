@@ -81,8 +81,8 @@ def test_it_prints_a_table_of_the_three_runs(compare):
     assert head.split("  ")[0] == "physics"
     assert [row.split()[0] for row in rows] == ["contact", "stop", "ideal"]
     assert rows[0].split()[1:5] == ["40", "1", "-", "-"]
-    assert all(row.endswith("Time is over: 4 s") for row in rows)
-    assert len({row.index("Time") for row in [*rows, head.replace("ended", "Time")]}) == 1
+    assert all(row.endswith("finished after 4 s") for row in rows)
+    assert len({row.index("finished") for row in [*rows, head.replace("ended", "finished")]}) == 1
     assert last == "figure: a.png"
     assert not Path("mars2d_compare").exists()
 

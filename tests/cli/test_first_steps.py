@@ -21,7 +21,7 @@ def test_a_new_experiment_runs_and_is_kept(here, capsys):
     assert cli.main(["new", "my_walk"]) == 0
     assert capsys.readouterr().out == "my_walk.py: written; run it: mars2d run my_walk.py\n"
     assert cli.main(["run", "my_walk.py", "--headless", "--stop-time", "5"]) == 0
-    assert "My walk: Time is over" in capsys.readouterr().out
+    assert "My walk: finished after" in capsys.readouterr().out
     (here / "my_walk.py").write_text("mine")
     assert cli.main(["new", "my_walk.py"]) == cli.BAD_INPUT
     assert (here / "my_walk.py").read_text() == "mine"

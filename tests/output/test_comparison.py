@@ -97,7 +97,7 @@ def test_titles_say_which_physics_how_many_collisions_and_how_it_ended(compariso
     for mode in MODES:
         assert mode in words
     for what in ("collisions", "stops"):
-        assert words.count(f"0 {what}, 8 steps\nTime is over: 4 s") == 1
+        assert words.count(f"0 {what}, 8 steps\nfinished after 4 s") == 1
     assert "0 overlaps, 4 steps\nIt ended early" in words
     assert any(each.endswith(", seed 0") for each in words)
 

@@ -105,7 +105,7 @@ def test_a_record_has_a_row_for_every_sampling_time_up_to_the_stop_time(stop_tim
 
 
 def test_why_it_ended_is_kept(record):
-    assert record.over_message == "Time is over: 2 s"
+    assert record.over_message == "finished after 2 s"
     assert record.finished
     assert record.seed == 7
     assert record.versions["mars2d"] == mars2d.__version__

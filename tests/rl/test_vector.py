@@ -116,10 +116,10 @@ def test_where_worlds_do_not_start_again_by_themselves_a_mask_says_which_do():
     many.step(np.zeros((2, 2)))
     *_, truncated, infos = many.step(np.zeros((2, 2)))
     assert truncated.all()
-    assert infos["over"].tolist() == ["Time is over: 0.2 s"] * 2
+    assert infos["over"].tolist() == ["finished after 0.2 s"] * 2
     many.reset(options={"reset_mask": np.array([False, True])})
     assert [one.world.iteration for one in many.envs] == [2, 0]
-    with pytest.raises(InputError, match="the episode is over: Time is over"):
+    with pytest.raises(InputError, match="the episode is over: finished after"):
         many.step(np.zeros((2, 2)))
 
 

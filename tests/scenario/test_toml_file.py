@@ -245,7 +245,7 @@ def test_the_verbs_take_scenario_files(tmp_path, monkeypatch, capsys):
     read(tmp_path, "format = 1\ncontrol = 'walk.py:team'\nstop_time = 2.0\ntitle = 'Walk'\n")
     monkeypatch.chdir(tmp_path)
     assert cli.main(["run", "scene.toml", "--headless", "--set", "stop_time=1"]) == 0
-    assert "Walk: Time is over: 1 s. 10 steps" in capsys.readouterr().out
+    assert "Walk: finished after 1 s. 10 steps" in capsys.readouterr().out
     assert cli.main(["check", "scene.toml"]) == 0
     told = capsys.readouterr().out
     assert "law team" in told

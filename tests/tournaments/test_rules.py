@@ -37,7 +37,7 @@ def test_rules_are_those_of_the_games_file():
             {"goal": [(4, 4), (5, 4), (5, 5)]},
             "catch b and c before 1 of 2 is in the goal",
             "reach the goal uncaught",
-            "The sheep wins when 1 of 2 is in the goal uncaught. If time is over before, the wolf",
+            "The sheep wins when 1 of 2 is in the goal uncaught. If time runs out before, the wolf",
         ),
     ],
 )

@@ -83,8 +83,8 @@ def test_the_last_row_is_at_the_stop_time_and_nothing_moves_after_it():
     assert steps == 6
     assert world.time == pytest.approx(0.5)
     assert world.pose[0, 0] == pytest.approx(0.05)
-    assert world.over_message == "Time is over: 0.5 s"
-    with pytest.raises(InputError, match="over: Time is over"):
+    assert world.over_message == "finished after 0.5 s"
+    with pytest.raises(InputError, match="over: finished after"):
         world.step()
 
 

@@ -104,14 +104,15 @@ def _save_film(records: dict[str, Record], arguments: argparse.Namespace) -> Non
 
 def _as_table(records: Mapping[str, Record]) -> str:
     """Return how the runs went, with the final drift from the run with contact."""
-    lines, ends = [("physics", "steps", "collisions", "drift max", "drift mean")], ["ended"]
+    lines = [["physics", "steps", "collisions", "drift max", "drift mean"]]
+    ends = ["ended"]
     for mode, record in records.items():
         apart = ["-", "-"]
         if mode != "contact":  # less than a micrometre is rounding
             drift = Drift.between(records["contact"], record)
             apart = [f"{round(float(x[-1]), 6):.3g} m" for x in (drift.max, drift.mean)]
         steps = max(len(record) - 1, 0)
-        lines.append((mode, f"{steps}", f"{record.collisions}", *apart))
+        lines.append([mode, f"{steps}", f"{record.collisions}", *apart])
         ends.append(record.over_message)
     first = records["contact"]
     title = f"{first.scenario.title}, seed {first.seed}"

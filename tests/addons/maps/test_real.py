@@ -95,7 +95,7 @@ def test_robots_wander_in_a_map_and_stay_in_its_rooms(tmp_path, made, options, s
     ]
     scenario = Scenario(robots=robots, workspace=None, addons=[found], stop_time=100)
     record = run(scenario, seed=3)
-    assert record.over_message == "Time is over: 100 s"
+    assert record.over_message == "finished after 100 s"
     pieces = found.obstacles()
     walls = [shapely.LineString(p) if len(p) == 2 else shapely.Polygon(p) for p in pieces]
     tree = shapely.STRtree(walls)
