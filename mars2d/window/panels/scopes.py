@@ -21,8 +21,7 @@ from mars2d.output.raster.painter import Painter
 from mars2d.output.signals import Signal, as_csv, without_nothing
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.panels.forcemeter import span_of
-from mars2d.window.panels.trace import Trace, What
+from mars2d.window.panels.trace import Trace, What, span_of
 from mars2d.window.screen.player import Player
 from mars2d.window.screen.saving import Saver
 from mars2d.window.screen.viewpoint import wheel_notches

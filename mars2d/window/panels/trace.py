@@ -23,6 +23,8 @@ Float = NDArray[np.float64]
 What = str | Callable[[Any], Any]
 """The name of a column, as `Record.plot_signals` has it, or a function of the record."""
 
+MIN_STEPS, MIN_SECONDS = 100, 5.0
+"""Plots over time cover at least this many control steps, and this many seconds."""
 FEW = 6
 """The most numbers of a body's reading that are drawn as curves."""
 
@@ -188,3 +190,8 @@ def _own(name: str, function: Callable[[Any], Any], record: Record) -> list[Sign
             raise LawError(f"{name} returned {shown(made)}: {expected}")
     names = tuple(map(str, named)) if isinstance(made, Mapping) else (name,)
     return [Signal(name, "", np.stack(curves, axis=1), (), curves=names)]
+
+
+def span_of(sampling_time: float) -> float:
+    """Return the time that a plot over time covers at least, seconds."""
+    return max(MIN_SECONDS, MIN_STEPS * sampling_time)

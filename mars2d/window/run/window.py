@@ -294,7 +294,7 @@ class Window(PlayerWindow):
         frame = self.grab.shown(self.player.frame)
         layout = self._layout(surface.get_size(), banner)
         self._painter.ui, self.grab.click = layout.ui, CLICK * layout.ui
-        self._inspector.plays = self._inspector.frames = self._drives
+        self._inspector.frames = self._drives
         self.scopes.chosen = self.selected
         bounds = self.viewpoint.bounds or frame.scenario.bounds
         fit = partial(fitted, bounds, layout.size)
