@@ -107,6 +107,8 @@ def test_a_rectangle_is_dragged_from_corner_to_corner(open_editor):
     hands.tool("k", "rectangle")
     hands.drag((1, 1), (0, 0), (-2, -1))
     hands.until(lambda s: s["outlines"] == [[[-2, -1], [1, -1], [1, 1], [-2, 1]]])
+    hands.click(3, 3)
+    hands.until(lambda s: s["outlines"][1:] == [[[2.5, 2.5], [3.5, 2.5], [3.5, 3.5], [2.5, 3.5]]])
 
 
 def test_waypoints_are_those_of_the_selected_robot_until_another_is_clicked(open_editor):
@@ -142,20 +144,20 @@ def test_a_beacon_is_put_by_a_click_and_moved_by_a_drag(open_editor):
 
 def test_the_workspace_has_corners_to_drag_to_add_and_to_remove(open_editor):
     hands = open_editor(team((0, 0)))
-    hands.tool("m", "workspace")
+    hands.press("m")
+    hands.until(lambda s: s["selection"] == [["workspace", 0, 0]])
     hands.drag((5, 5), (4, 4), (4, 3))
     hands.until(lambda s: s["workspace"] == [[-5, -5], [-5, 5], [4, 3], [5, -5]])
-    hands.click(2, -5)
+    hands.click(0, -5)  # the dot between two corners
     hands.until(lambda s: len(s["workspace"]) == 5 and s["corner"] == 4)
-    assert hands.state["workspace"][4] == [2, -5]
-    hands.drag((2, -5), (2, -4), (2, -3))
+    hands.drag((0, -5), (2, -4), (2, -3))
     hands.until(lambda s: s["workspace"][4] == [2, -3])
     hands.press("Delete")
     hands.until(lambda s: s["workspace"] == [[-5, -5], [-5, 5], [4, 3], [5, -5]])
     hands.press("Delete")
     hands.until(lambda s: s["workspace"] is None)
-    hands.drag((-2, -3), (0, 0), (3, 2))
-    hands.until(lambda s: s["workspace"] == [[-2, -3], [3, -3], [3, 2], [-2, 2]])
+    hands.press("m")
+    hands.until(lambda s: len(s["workspace"]) == 4 and s["selection"])
 
 
 def test_the_buttons_of_the_tool_bar_choose_tools_and_say_what_they_are(open_editor):

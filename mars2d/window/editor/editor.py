@@ -13,7 +13,7 @@ import pygame
 
 from mars2d.bodies.joints.base import Joint
 from mars2d.core.errors import InputError, Mars2dError
-from mars2d.core.plane import Point
+from mars2d.core.plane import Point, rectangle
 from mars2d.core.scene import Scene
 from mars2d.output.layers.table import Layers
 from mars2d.output.raster.bars import Banner, draw_footer, footer_height
@@ -259,6 +259,14 @@ class Editor:
         """Select all items."""
         self.choose("select")
         self.desk.select(self.desk.draft.items())
+
+    def select_workspace(self) -> None:
+        """Select the workspace; make one round all that there is if there is none."""
+        self.choose("select")
+        draft, desk = self.desk.draft, self.desk
+        if draft.base.workspace is None:
+            desk.put(draft.with_list("workspace", [rectangle(*draft.sketch.bounds)]))
+        desk.select([Item("workspace")])
 
     def select_next(self, *, too: bool = False) -> None:
         """Select the item after that selected last, after the last the first; too: one more."""
