@@ -293,6 +293,21 @@ def test_arrows_nudge_by_a_grid_step_and_with_shift_by_a_tenth(open_editor):
     hands.until(lambda s: s["robots"][0] == [0, 0, 0])
 
 
+def test_keys_turn_a_robot_and_an_obstacle_about_its_middle(open_editor):
+    corners = [(0, 0), (3, 0), (0, 3)]
+    hands = open_editor(team((4, 4), addons=[Map([corners])]))
+    hands.press("ctrl+Right")
+    hands.until(lambda s: "select something" in s["notice"])
+    hands.press("Tab", *["ctrl+Left"] * 6)
+    hands.until(lambda s: near(s["outlines"][0], [(2, 0), (2, 3), (-1, 0)], 1e-6))
+    hands.press(*["ctrl+Right"] * 6)
+    hands.until(lambda s: near(s["outlines"][0], corners, 1e-6))
+    hands.press("Tab", "ctrl+Left", "ctrl+shift+Right")
+    hands.until(lambda s: near(degrees(s["robots"][0][2]), 14, 1e-6))
+    hands.press("ctrl+z")  # turns one after the other are one change
+    hands.until(lambda s: s["robots"][0][2] == 0)
+
+
 def test_numbers_put_the_selection_exactly(open_editor):
     hands = open_editor(team((0, 0)))
     hands.press("equal")

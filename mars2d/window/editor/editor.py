@@ -25,8 +25,9 @@ from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.dialogs import Dialogs
 from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft
+from mars2d.window.editor.handles import NOTCH, ring_of
 from mars2d.window.editor.header import Header
-from mars2d.window.editor.item import Item
+from mars2d.window.editor.item import Item, Motion
 from mars2d.window.editor.properties import Properties
 from mars2d.window.editor.readout import minus
 from mars2d.window.editor.select import Handling, Select
@@ -178,9 +179,11 @@ class Editor:
         if action is None:
             return
         self.desk.say("")
+        dx, dy = NUDGES.get(label_of(event).split()[-1], (0, 0))
         if action.name == "nudge":
-            dx, dy = NUDGES[label_of(event).removeprefix("Shift ")]
             self.desk.nudge(dx, dy, fine=bool(event.mod & pygame.KMOD_SHIFT))
+        elif action.name == "turn":
+            self._turn(-dx, fine=bool(event.mod & pygame.KMOD_SHIFT))
         elif action.act is not None:
             action.act()
 
@@ -317,6 +320,15 @@ class Editor:
         except ValueError:
             raise InputError(f"{text!r}: expected x y in metres, x y degrees, or a name") from None
         self.tool.put(x, y, None if angle is None else radians(angle))
+
+    def _turn(self, way: int, *, fine: bool) -> None:
+        """Turn the selection: 1 is counter-clockwise, -1 clockwise; fine: by one degree."""
+        ring, desk = ring_of(self.desk), self.desk
+        if ring is None:
+            desk.say("select something that has a direction first", warns=True)
+            return
+        motion = Motion(radians(way * (1.0 if fine else NOTCH)), ring.center)
+        desk.put(desk.draft.moved(desk.selection, motion), tag="turn")
 
     def undo(self) -> None:
         """Remove the last corner of the outline being drawn, or else undo the last change."""
