@@ -56,7 +56,7 @@ window's width."""
 PANEL, MAX_PANEL, ARENA = 268.0, 0.34, 0.42
 """The width of the panel, points, its largest share of the window's width, and the share of the
 window that it leaves to the drawing."""
-PANEL_HINT = "Arrows choose a row and change its number, Enter opens it, Esc leaves the panel"
+PANEL_HINT = "Arrows choose a row, Enter opens it, Esc leaves the panel"
 STEP = 16.0
 """The height of the line below them, with the step of the grid, points."""
 LAYERS = Layers(trails=False, sensors=False, messages=False)
@@ -388,7 +388,8 @@ class Editor:
     def draw(self, surface: pygame.Surface) -> None:
         """Draw the editor; the layout follows the surface's size."""
         self._arrange(surface.get_size())
-        self.judge.of(self.desk.draft, at_once=not self._dragging)
+        if not self._dragging:
+            self.judge.of(self.desk.draft)
         self._draw_plot(surface)
         plot, bar = self.layout.plot, self.layout.header
         side = pygame.Rect(0, bar.bottom, plot.left, plot.height)
