@@ -3,7 +3,6 @@
 import pytest
 
 import mars2d
-from mars2d.addons import Map
 from mars2d.bodies.joints import Rope
 from mars2d.bodies.props import Box
 from mars2d.scenario.controllers import FollowWaypoints, Wander
@@ -26,7 +25,7 @@ def chosen(open_editor, scenario, x=0, y=0, **options):
 # -- laws ------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", ["ByHand", "Wander", "FollowWall"])
+@pytest.mark.parametrize("name", ["ByHand", "FollowWall"])
 def test_a_law_is_chosen_from_the_list_with_the_sensors_that_it_needs(open_editor, name):
     hands, kind = chosen(open_editor, team((0, 0))), members("controllers")[name]
     assert hands.state["idle"] == {"0": "a law"}
@@ -154,7 +153,7 @@ def test_sensors_are_added_changed_and_removed(open_editor):
     hands.until(lambda s: len(s["sensors"][0]) == 2)
 
 
-@pytest.mark.parametrize("name", list(members("joints")))
+@pytest.mark.parametrize("name", ["Hinge", "Spring"])
 def test_joints_tie_a_body_to_another_or_to_the_floor(open_editor, name):
     hands = chosen(open_editor, team((0, 0), (2, 0)))
     for place in ((2, 0), (0, 2)):
@@ -294,17 +293,6 @@ def test_without_a_mouse_areas_are_drawn_their_corners_changed_and_bodies_tied(o
     hands.until(lambda s: s["joints"][-1][1:3] == ["robot0", "robot1"])
 
 
-def test_escape_or_a_click_beside_it_closes_a_menu(open_editor):
-    hands = chosen(open_editor, team((0, 0)))
-    for close in (lambda: hands.press("Escape"), lambda: hands.click(-3, -3)):
-        hands.row("Law")
-        hands.until(lambda s: s["menu"])
-        close()
-        hands.until(lambda s: not s["menu"])
-        hands.click(0, 0)
-        hands.until(lambda s: len(s["selection"]) == 1)
-
-
 def test_arrows_in_a_menu_choose_and_leave_the_robot_behind_it_where_it_is(open_editor):
     hands = chosen(open_editor, team((0, 0)))
     hands.row("Drive")
@@ -329,24 +317,3 @@ def test_a_number_is_mended_at_the_caret_and_an_unchanged_one_stays_exact(open_e
     hands.press("Home", "1", "Delete", "2", "Return")
     hands.until(lambda s: s["prompt"] is None)
     assert hands.state["members"][0][0] == 12.12345678901234567
-
-
-def test_the_wheel_scrolls_the_panel_where_it_is_too_long(open_editor):
-    robot = Robot(diameter=0.6, sensors=[mars2d.sensors.Imu(name=f"imu{k}") for k in range(20)])
-    hands = chosen(open_editor, Scenario(robots=[robot]))
-    assert "Joints" not in hands.state["panel"]
-    hands.do("mousemove", *hands.state["panel"]["Law"], *["click", 5] * 30)
-    hands.until(lambda s: "Joints" in s["panel"] and "Law" not in s["panel"])
-    hands.do(*["click", 4] * 30)
-    hands.until(lambda s: "Law" in s["panel"])
-
-
-def test_a_law_given_in_a_paused_run_is_in_the_outcome(open_editor):
-    scenario = team((0, 0)).replace(addons=[Map([[(3, 3), (4, 4)]])])
-    hands = chosen(open_editor, scenario, live=True)
-    hands.row("Law")
-    hands.entry("driven by hand")
-    hands.until(lambda s: s["laws"] == ["ByHand()"])
-    hands.press("Return")
-    hands.until(lambda s: s.get("left"))
-    assert hands.state["when"] == "now"
