@@ -100,7 +100,7 @@ def actions_of(editor: Editor) -> dict[str, tuple[Action, ...]]:
                 editor.ask_pose),
             key("nudge", "arrows", "move the selection by a grid step; with Shift by a tenth",
                 repeats=True),
-            Action("turn", "turn the selection by 15 degrees; with Shift by one",
+            Action("rotate", "turn the selection by 15 degrees; with Shift by one",
                    ("Ctrl ←", "Ctrl →"), repeats=True),
             key("delete", "Del", "remove the selection, or its corner", desk.remove, "Backspace"),
             key("duplicate", "Ctrl D", "duplicate the selection, or its corner", desk.duplicate),

@@ -182,7 +182,7 @@ class Editor:
         dx, dy = NUDGES.get(label_of(event).split()[-1], (0, 0))
         if action.name == "nudge":
             self.desk.nudge(dx, dy, fine=bool(event.mod & pygame.KMOD_SHIFT))
-        elif action.name == "turn":
+        elif action.name == "rotate":
             self._turn(-dx, fine=bool(event.mod & pygame.KMOD_SHIFT))
         elif action.act is not None:
             action.act()

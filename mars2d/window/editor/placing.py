@@ -128,11 +128,11 @@ class PlaceRectangle(Place):
 
     def added(self, draft: Draft, start: Point, end: Point, shift: bool) -> Draft:  # noqa: ARG002
         """Place a rectangle between two corners, or a square about a point."""
-        x, y = self.desk.snapped(end)
-        if start[0] == x or start[1] == y:
-            half = SQUARE / 2
-            start, (x, y) = (start[0] - half, start[1] - half), (start[0] + half, start[1] + half)
-        return draft.added("outline", rectangle(*bounds_of([start, (x, y)])))
+        (x, y), half = start, SQUARE / 2
+        corners = [start, self.desk.snapped(end)]
+        if end == start or x == corners[1][0] or y == corners[1][1]:
+            corners = [(tidy(x - half), tidy(y - half)), (tidy(x + half), tidy(y + half))]
+        return draft.added("outline", rectangle(*bounds_of(corners)))
 
     def measure(self) -> str:
         """Return the size."""
