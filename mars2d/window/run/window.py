@@ -151,7 +151,7 @@ class Window(PlayerWindow):
             "film": self.saver.film_or_not,
             "python": self._save_python,
         }
-        self.scopes = Scopes(painter, self.player)
+        self.scopes: Scopes = Scopes(painter, self.player)
         self.dock = Dock(
             painter,
             [
