@@ -249,10 +249,6 @@ class Person:
         self.until(lambda s: title in s["panel"])
         self.do("mousemove", *self.state["panel"][title], "click", 1)
 
-    def sign(self, sign, title):
-        """Click + or - in a row of the panel."""
-        self.do("mousemove", *self.state["signs"][f"{sign} {title}"], "click", 1)
-
     def entry(self, title):
         """Click an entry of the open menu."""
         self.until(lambda s: title in s["menu"])

@@ -256,7 +256,6 @@ def of_editor(editor):
         "idle": editor.properties.idle(draft),
         "panel": {title: place.center for title, place in editor.panel.places.items()},
         "rows": [[row.title, row.value] for row in editor.properties.rows()],
-        "signs": {title: place.center for title, place in editor.panel.signs.items()},
         "menu": {title: place.center for title, place in editor.menu.places.items()},
         "chosen": (editor.menu if editor.menu.is_open else editor.panel).chosen,
         "focused": editor.panel.focused,

@@ -92,7 +92,7 @@ class Controls:
     def _choose_speed(self, pixel: Pixel) -> None:
         """Play at the speed at a pixel of the slider."""
         speed = self.slider.speed_at(pixel[0])
-        if speed is not None and speed != self._player.speed:
+        if speed != self._player.speed:
             self._player.set_speed(speed)
 
 

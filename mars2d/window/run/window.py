@@ -149,7 +149,7 @@ class Window(PlayerWindow):
             **self._tools.actions,
             "edit": self._open_editor,
             "film": self.saver.film_or_not,
-            "python": self._save_python,
+            "scenario": self._save_scenario,
         }
         self.scopes: Scopes = Scopes(painter, self.player)
         self.dock = Dock(
@@ -595,13 +595,11 @@ class Window(PlayerWindow):
         banner, frame = self._ending.banner(), self.player.frame
         return arena_of(window, self.layout, self._painter, frame, banner)
 
-    def _save_python(self) -> None:
-        """Save the scenario as it is now as a Python file."""
-        timeline, scenario = self.director.timeline, self.director.scenario_to_save()
-        if timeline is None:
-            self.saver.python(scenario, None)
-        else:
-            self.saver.python(scenario, timeline.world.control, timeline.options)
+    def _save_scenario(self) -> None:
+        """Save the scenario as it is now."""
+        timeline = self.director.timeline
+        control = None if timeline is None else timeline.world.control
+        self.saver.scenario(self.director.scenario_to_save(), control)
 
     def _to_sliders(self) -> None:
         """Let keys go to the sliders of parameters, which are shown."""
