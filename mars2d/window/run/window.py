@@ -151,7 +151,7 @@ class Window(PlayerWindow):
             "film": self.saver.film_or_not,
             "scenario": self._save_scenario,
         }
-        self.scopes = Scopes(painter, self.player)
+        self.scopes: Scopes = Scopes(painter, self.player)
         self.dock = Dock(
             painter,
             [
