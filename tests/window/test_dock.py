@@ -114,6 +114,17 @@ def test_where_there_is_little_room_the_one_opened_last_is_seen_whole():
     assert seen.dock.plates["panel0"].height > 100 > seen.dock.plates["panel2"].height
 
 
+def test_the_one_opened_last_gets_the_room_that_titles_leave_where_it_needs_more():
+    panels = [Plain(name, least=500.0, wanted=900.0) for name in ("lesson", "inspector")]
+    seen = Seen(panels, (1280, 720), text=2.2)
+    for panel in panels:
+        panel.wanted = True
+        seen.draw()
+    lesson, inspector = (seen.dock.plates[panel.name] for panel in panels)
+    assert inspector.height > 2 * lesson.height
+    assert seen.layout.plot.contains(inspector.unionall([lesson]))
+
+
 def test_a_panel_of_what_is_selected_leaves_the_arena_where_it_is_until_it_is_fitted():
     panels = [Plain("scopes"), Plain("inspector", least=300.0, wanted=500.0)]
     panels[1].frames = False

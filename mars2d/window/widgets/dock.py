@@ -266,12 +266,20 @@ class Dock:
         room = pygame.Rect(plot.topleft, (plot.width, plot.height - below))
         yield Place(room, lanes(pygame.Rect(room.bottomleft, (plot.width, below)), count))
 
-    def _heights(self, panel: Panel, frame: Frame, lane: pygame.Rect) -> tuple[float, float]:
-        """Return the least and the wanted height of a whole panel in a lane, pixels."""
+    def _heights(
+        self, panel: Panel, frame: Frame, lane: pygame.Rect, *, others: int = 0
+    ) -> tuple[float, float]:
+        """Return the least and the wanted height of a whole panel in a lane, pixels.
+
+        others: how many panels it leaves nothing but their titles, where it stands alone.
+        """
         ui = self.painter.ui
         least, wanted = panel.heights(frame, lane.width / ui - 2 * PAD)
         more = PAD + (HEAD if panel.headed else 0)
-        return (least + more) * ui, (wanted + more) * ui
+        least, wanted = (least + more) * ui, (wanted + more) * ui
+        if others:
+            least = min(least, lane.height - others * (HEAD * ui + round(MARGIN * ui)))
+        return least, wanted
 
     def _unfolded(
         self, shown: Sequence[Panel], lanes: Sequence[pygame.Rect], frame: Frame
@@ -294,10 +302,13 @@ class Dock:
         gap, ui = round(MARGIN * self.painter.ui), self.painter.ui
         shared: list[list[Panel]] = [[] for _ in lanes]
         rooms = [lane.height + gap for lane in lanes]
+        others = len(shown) - 1 if len(unfolded) == 1 else 0
         for panel in shown:
             k = rooms.index(max(rooms))
             whole = panel.name in unfolded
-            least = self._heights(panel, frame, lanes[k])[0] if whole else HEAD * ui
+            least = HEAD * ui
+            if whole:
+                least = self._heights(panel, frame, lanes[k], others=others)[0]
             rooms[k] -= round(least) + gap
             shared[k].append(panel)
         return shared if min(rooms) >= 0 else None
@@ -314,11 +325,12 @@ class Dock:
             shown.pop()
             shared = self._shared(shown, self._place.lanes, frame, unfolded)
         ui, gap = self.painter.ui, round(MARGIN * self.painter.ui)
+        others = len(shown) - 1 if len(unfolded) == 1 else 0
         for lane, panels in zip(self._place.lanes, shared or (), strict=False):
             heights = [
                 (HEAD * ui, HEAD * ui)
                 if panel.name in self._folded
-                else self._heights(panel, frame, lane)
+                else self._heights(panel, frame, lane, others=others)
                 for panel in panels
             ]
             more = [max(wanted - least, 0.0) for least, wanted in heights]
