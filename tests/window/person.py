@@ -32,13 +32,13 @@ REPEAT_DELAY, REPEAT_INTERVAL = 0.4, 0.06
 MODIFIERS = {"shift": pygame.KMOD_LSHIFT, "ctrl": pygame.KMOD_LCTRL}
 KEYS = {
     "Return": "\r", "Escape": "\x1b", "BackSpace": "\b", "Tab": "\t", "Delete": "\x7f",
-    "space": " ", "plus": "+", "minus": "-", "equal": "=", "period": ".", "KP_2": "2",
+    "space": " ", "plus": "+", "minus": "-", "equal": "=", "period": ".", "comma": ",",
     "KP_Add": "+",
 }  # fmt: skip
 """What keys with a name write."""
 NAMES = {
     "Next": "page down", "Prior": "page up", "plus": "=", "minus": "-", "equal": "=", "period": ".",
-    "KP_2": "[2]", "KP_Add": "[+]",
+    "comma": ",", "KP_Add": "[+]",
 }  # fmt: skip
 """What pygame calls keys whose names differ by more than the case."""
 
@@ -195,6 +195,12 @@ class Person:
             self._keyup(name)
             for each in modifiers:
                 self._keyup(each)
+
+    def steps(self, count):
+        """Go on by steps, or back for a negative number, as by so many presses of an arrow."""
+        row, player = self.state["row"] + count, self.shown.player
+        player.step(count) if count > 0 else player.back(-count)
+        self.until(lambda s: s["row"] == row)
 
     def type(self, text):
         """Write a text."""
