@@ -266,30 +266,25 @@ class Dock:
         room = pygame.Rect(plot.topleft, (plot.width, plot.height - below))
         yield Place(room, lanes(pygame.Rect(room.bottomleft, (plot.width, below)), count))
 
-    def _heights(
-        self, panel: Panel, frame: Frame, lane: pygame.Rect, *, others: int = 0
-    ) -> tuple[float, float]:
-        """Return the least and the wanted height of a whole panel in a lane, pixels.
-
-        others: how many panels it leaves nothing but their titles, where it stands alone.
-        """
+    def _heights(self, panel: Panel, frame: Frame, lane: pygame.Rect) -> tuple[float, float]:
+        """Return the least and the wanted height of a whole panel in a lane, pixels."""
         ui = self.painter.ui
         least, wanted = panel.heights(frame, lane.width / ui - 2 * PAD)
         more = PAD + (HEAD if panel.headed else 0)
-        least, wanted = (least + more) * ui, (wanted + more) * ui
-        if others:
-            least = min(least, lane.height - others * (HEAD * ui + round(MARGIN * ui)))
-        return least, wanted
+        return min((least + more) * ui, lane.height), (wanted + more) * ui
 
     def _unfolded(
         self, shown: Sequence[Panel], lanes: Sequence[pygame.Rect], frame: Frame
     ) -> set[str]:
-        """Return the names of the panels that are seen whole: as many as there is room for."""
+        """Return the names of the panels that are seen whole, as many as there is room for, or one.
+
+        For that one, titles of others may have to go.
+        """
         found: set[str] = set()
         for name in self._recent:
             if self._shared(shown, lanes, frame, {*found, name}) is not None:
                 found.add(name)
-        return found
+        return found or set(self._recent[:1])
 
     def _shared(
         self,
@@ -302,13 +297,10 @@ class Dock:
         gap, ui = round(MARGIN * self.painter.ui), self.painter.ui
         shared: list[list[Panel]] = [[] for _ in lanes]
         rooms = [lane.height + gap for lane in lanes]
-        others = len(shown) - 1 if len(unfolded) == 1 else 0
         for panel in shown:
             k = rooms.index(max(rooms))
             whole = panel.name in unfolded
-            least = HEAD * ui
-            if whole:
-                least = self._heights(panel, frame, lanes[k], others=others)[0]
+            least = self._heights(panel, frame, lanes[k])[0] if whole else HEAD * ui
             rooms[k] -= round(least) + gap
             shared[k].append(panel)
         return shared if min(rooms) >= 0 else None
@@ -321,16 +313,16 @@ class Dock:
         unfolded = self._unfolded(shown, self._place.lanes, frame)
         self._folded = {panel.name for panel in shown} - unfolded
         shared = self._shared(shown, self._place.lanes, frame, unfolded)
-        while shown and shared is None:  # not even room for all titles
-            shown.pop()
-            shared = self._shared(shown, self._place.lanes, frame, unfolded)
+        for name in reversed(self._recent):
+            if shared is None:  # there is no room for all titles
+                shown = [panel for panel in shown if panel.name != name]
+                shared = self._shared(shown, self._place.lanes, frame, unfolded)
         ui, gap = self.painter.ui, round(MARGIN * self.painter.ui)
-        others = len(shown) - 1 if len(unfolded) == 1 else 0
         for lane, panels in zip(self._place.lanes, shared or (), strict=False):
             heights = [
                 (HEAD * ui, HEAD * ui)
                 if panel.name in self._folded
-                else self._heights(panel, frame, lane, others=others)
+                else self._heights(panel, frame, lane)
                 for panel in panels
             ]
             more = [max(wanted - least, 0.0) for least, wanted in heights]
