@@ -243,25 +243,7 @@ def test_a_graph_may_be_given_by_its_edges():
     assert Graph((2, [])).of(np.zeros((2, 2))) == [[], []]
 
 
-def test_graphs_of_networkx_are_the_matrices_that_it_makes_of_them_directed_or_not():
-    nx = pytest.importorskip("networkx")
-    assert Graph(nx.DiGraph([(0, 1), (0, 2)])).of(np.zeros((2, 3))) == [[1, 2], [], []]
-    for graph in (nx.cycle_graph(7), nx.gnp_random_graph(9, 0.4, seed=2, directed=True)):
-        matrix = nx.to_numpy_array(graph, nodelist=range(len(graph)))
-        assert Graph(graph) == Graph(matrix)
-
-
-@each_case("edge", ["ab", (1, 2), (0, 2)])
-def test_other_nodes_than_the_robots_indices_are_refused(edge):
-    nx = pytest.importorskip("networkx")
-    with pytest.raises(InputError, match=r"^Graph.graph: its nodes are .*expected 0, 1, 2, ..., "):
-        Graph(nx.Graph([tuple(edge)]))
-
-
-NOT_A_GRAPH = (
-    "expected an adjacency matrix (n, n) of numbers, a networkx graph of the nodes 0 to n - 1, "
-    "or a pair (n, edges)"
-)
+NOT_A_GRAPH = "expected an adjacency matrix (n, n) of numbers, or a pair (n, edges)"
 
 
 @each_case(

@@ -91,7 +91,7 @@ def _play_all(arguments: argparse.Namespace, planned: Schedule, path: Path) -> N
     count = len(planned.matches)
     before = count - len(missing(planned, played_before(path, planned)))
     known = f", {before} of them played before" if before else ""
-    tell(f"{planned.rules.title}: {who}: {matches_of(count)}{known}")
+    tell(f"{planned.title}: {who}: {matches_of(count)}{known}")
     interrupt = None
     try:
         result = play_schedule(planned, path, workers=arguments.workers)
