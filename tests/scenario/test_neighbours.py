@@ -110,11 +110,6 @@ def test_the_nearest_of_many_are_those_of_sorting_all(where, count):
     assert Nearest(count).of(PLACES[where]) == brute_nearest(PLACES[where], count)
 
 
-@each_case("rule", [Everyone(), Within(1), Nearest(1), Delaunay(), Graph([[0]])])
-def test_one_robot_alone_has_no_neighbours(rule):
-    assert lists(rule.of(np.zeros((2, 1)))) == [[]]
-
-
 # -- Delaunay ---------------------------------------------------------------------------------
 
 
@@ -351,49 +346,7 @@ def test_a_rule_that_returns_nonsense_is_an_error_that_points_at_it(found, messa
     assert untimed(raised.value).startswith(said)
 
 
-def test_a_rule_can_not_move_robots():
-    class Grab(Neighbourhood):
-        def of(self, position):
-            position[:] = 0
-            return [[], [], [], []]
-
-    with pytest.raises(LawError, match="read-only"):
-        listed(Grab())
-
-
-@each_case(
-    ("make", "message"),
-    [
-        (
-            lambda: Scenario(neighbours="all"),
-            "'all': expected a Neighbourhood, such as Within(2)",
-        ),
-        (lambda: Scenario(neighbours=Within), "= Within: expected an object; write Within("),
-        (lambda: Scenario(neighbours=np.eye(2)), "expected a rule; write Graph(...) of a graph"),
-        (
-            lambda: Scenario(robots=3, neighbours=Graph([[0, 1], [1, 0]])),
-            "has 2 nodes, the team 3",
-        ),
-        (lambda: Within(0), "Within.range = 0: expected a number > 0"),
-        (lambda: Nearest(0), "Nearest.count = 0: expected a whole number from 1"),
-        (Nearest, "Nearest.count is missing"),
-    ],
-)
-def test_a_rule_with_wrong_fields_is_refused(make, message):
-    with pytest.raises(InputError) as raised:
-        make()
-    assert message in str(raised.value)
-
-
 # -- in a record ------------------------------------------------------------------------------
-
-
-@each_case("rule", [Everyone(), Within(2.5), Nearest(3), Delaunay(), Graph(PATH), Graph((3, []))])
-def test_a_record_keeps_the_rule(rule, tmp_path):
-    mars2d.run(Scenario(robots=3, neighbours=rule, stop_time=0)).save(tmp_path / "run.npz")
-    record = mars2d.load(tmp_path / "run.npz")
-    assert record.scenario.neighbours == rule
-    assert record.missing == ()
 
 
 def test_a_rule_of_the_users_own_is_named_as_missing_and_everyone_stands_for_it(tmp_path):

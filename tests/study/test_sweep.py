@@ -88,13 +88,6 @@ def test_each_row_is_the_run_that_mars2d_run_makes(here):
     assert len({result.code for result in table.results}) == 1
 
 
-def test_each_point_has_the_same_seeds(here):
-    points = sweep({"gain": [0.5, 1.0]}, [4, 2]).points()
-    assert {p: [r.seed for r in results] for p, results in points.items()} == {
-        (0.5,): [4, 2], (1.0,): [4, 2]
-    }  # fmt: skip
-
-
 def test_measures_are_the_files_the_ones_built_in_or_functions_given(here):
     def here_alone(record):
         return len(record)
@@ -420,8 +413,3 @@ def test_a_notebook_shows_a_bar_and_its_functions_go_to_processes(here):
     *shown, table = notebook.cells[0].outputs
     assert "0/4 [" in str(shown)
     assert "Table of drift.py: 4 runs" in table["data"]["text/plain"]
-
-
-def test_a_pipe_gets_no_bar(here, capfd):
-    sweep({"gain": [0.5, 1.0]}, 2)
-    assert capfd.readouterr() == ("", "")
