@@ -44,8 +44,6 @@ CONTROLS = {
         "M7 17a3 3 0 1 0 6 0a3 3 0 1 0-6 0",
     ),
     "scopes": Control("Scopes", "Q", "M4 4v16h16M7 15l4-6 4 4 5-8"),
-    "figure": Control("Save as a figure", "", "M4 4h16v16H4ZM7 16l4-5 3 3 3-6"),
-    "table": Control("Save the numbers as CSV", "", "M4 5h16v14H4ZM4 10h16M4 14.5h16M10 5v14"),
     "predictions": Control("Predictions", "F3", "M4 6l2 2 3.5-4M4 15l2 2 3.5-4M13 6.5h7M13 15.5h7"),
     "lesson": Control("Lesson", "F4", "M4 5h7l1 1 1-1h7v14h-7l-1 1-1-1H4ZM12 6v13"),
     "drive": Control(

@@ -72,7 +72,7 @@ def test_v_films_until_it_is_pressed_again(open_window, folder):
 
 def test_c_keeps_the_scenario_as_it_is_seen(open_window, room, folder):
     window = open_window(0, folder=folder, experiment=str(room))
-    window.press("2", "0", "Right")
+    window.steps(20)
     poses = window.until(lambda s: s["row"] == 20)["robots"]
     window.press("c")
     window.says(f"scenario: {folder / 'room_1.toml'}")
