@@ -42,7 +42,7 @@ LOADING = 60.0
 """The time that loading a file may take, seconds."""
 
 _FILES = (
-    "an experiment, sensors, add-ons, drives, laws (.py or an example's name), a learned law "
+    "an experiment, sensors, add-ons, laws (.py or an example's name), a learned law "
     f"({LEARNED}), a scenario (.toml), a record ({', '.join(formats.SUFFIXES)}), or a map"
 )
 _SET = "how a map is read; with --for, a field of the experiment"
