@@ -14,7 +14,7 @@ USUAL = (
     ("Space", "pause"), ("← →", "step"), ("+ \N{MINUS SIGN}", "speed"), ("F1", "help"),
 )  # fmt: skip
 BY_HAND = (("↑ ↓ ← →", "drive"), ("Shift", "slowly"), ("H", "let go"), ("F1", "help"))
-MANUAL = (("any key", "step"), ("+", "play"), ("F1", "help"))
+MANUAL = (("Space", "step"), ("+", "play"), ("F1", "help"))
 
 
 def hints_of(player: Player, game: Play | None, *, drives: bool, score_shown: bool) -> Hints:
