@@ -50,8 +50,6 @@ def show_experiment(
     game. Raises InputError without a display, and the error of a law after the window is closed.
     """
     require_pygame("a window")
-    from mars2d.window.run.play import game_of
-
     source: Timeline | None = None
     kept = interrupts(kept=lambda: None if source is None else source.record)
     with kept, log or nullcontext():
@@ -64,7 +62,7 @@ def show_experiment(
         by_hand = [i for i, robot in robots if isinstance(robot.controller, ByHand)]
         drivers = list(humans) or by_hand  # robots whose law is that a person drives them
         if drivers or play:
-            window.play(memory, game_of(experiment), drivers[:MOST_PEOPLE])
+            window.play(drivers[:MOST_PEOPLE])
         else:
             window.say_who_stands_still()
         try:

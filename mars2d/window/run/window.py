@@ -38,7 +38,6 @@ from mars2d.window.run.ending import Ending
 from mars2d.window.run.ghosts import ghosts
 from mars2d.window.run.grab import CLICK, Grab
 from mars2d.window.run.heat import AGAIN, MOST, heat, squeezes
-from mars2d.window.run.hints import hints_of
 from mars2d.window.run.menus import (
     entries_of_body,
     entries_of_leaving,
@@ -56,7 +55,6 @@ from mars2d.window.run.tools import Tools
 from mars2d.window.screen.display import (
     Preferences,
 )
-from mars2d.window.screen.memory import Memory
 from mars2d.window.screen.picking import body_at, next_body, selection_mark, sensed_by
 from mars2d.window.screen.selection import Selection
 from mars2d.window.screen.source import Playback, Source
@@ -76,6 +74,11 @@ LACKS = {
     "parameters": RECORDING,
 }
 """What is said where a panel has nothing to show."""
+USUAL = (
+    ("Space", "pause"), ("← →", "step"), ("+ \N{MINUS SIGN}", "speed"), ("F1", "help"),
+)  # fmt: skip
+BY_HAND = (("↑ ↓ ← →", "drive"), ("Shift", "slowly"), ("H", "let go"), ("F1", "help"))
+"""The keys that the footer names; a game's panel has its own."""
 SEEN = 4.0
 """The radius below which robots of a game are hardly seen, so that the camera goes near, pixels."""
 
@@ -149,7 +152,6 @@ class Window(PlayerWindow):
             **self._tools.actions,
             "edit": self._open_editor,
             "film": self.saver.film_or_not,
-            "scenario": self._save_scenario,
         }
         self.scopes: Scopes = Scopes(painter, self.player)
         self.dock = Dock(
@@ -354,9 +356,7 @@ class Window(PlayerWindow):
         layout, painter = self.layout, self._painter
         draw_header(surface, layout, painter, frame, self._status())
         self._controls.draw(surface, layout, painter, self._pointer, self._mouse.drags)
-        hints = hints_of(
-            self.player, self.game, drives=self._drives, score_shown="score" in self.dock.plates
-        )
+        hints = () if self.game is not None else BY_HAND if self._drives else USUAL
         draw_footer(surface, layout, painter, banner, summary(frame), hints)
 
     def _status(self) -> Status:
@@ -595,12 +595,6 @@ class Window(PlayerWindow):
         banner, frame = self._ending.banner(), self.player.frame
         return arena_of(window, self.layout, self._painter, frame, banner)
 
-    def _save_scenario(self) -> None:
-        """Save the scenario as it is now."""
-        timeline = self.director.timeline
-        control = None if timeline is None else timeline.world.control
-        self.saver.scenario(self.director.scenario_to_save(), control)
-
     def _to_sliders(self) -> None:
         """Let keys go to the sliders of parameters, which are shown."""
         if not self.parameters.is_open:
@@ -653,12 +647,9 @@ class Window(PlayerWindow):
         stands = "stand" if more else "stands"
         self.notes.say(f"{name}{more} {stands} still: {name} lacks {want}", "warning")
 
-    def play(self, memory: Memory, game: str, robots: Sequence[int] = ()) -> None:
-        """Make it a game, with people at these robots, or with roles that they choose.
-
-        memory: keeps the scores. game: its name for the scores.
-        """
-        self.game = Play(self.player, self.director, memory, game)
+    def play(self, robots: Sequence[int] = ()) -> None:
+        """Make it a game, with people at these robots, or with roles that they choose."""
+        self.game = Play(self.player, self.director)
         self._ending.of_game = True
         self._before = Countdown(self._painter, self.game)
         self._score = ScorePanel(self._painter, self.game)
