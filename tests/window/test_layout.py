@@ -100,7 +100,7 @@ def faults_of_home(size, text):
 def faults_of_run(timeline, size, text):
     """Yield what is wrong with a game's layout before it begins."""
     shown = Window(timeline, 1.0, size, Preferences(text=text))
-    shown.play(Memory(), "a game", ())
+    shown.play()
     surface = pygame.Surface(size, 0, 32)
     for _ in range(2):  # panels have their places from the second picture on
         shown.draw(surface)

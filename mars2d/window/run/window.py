@@ -458,9 +458,7 @@ class Window(PlayerWindow):
         ((x, y),) = self.camera.to_pixels([point]).astype(int).tolist()
         frame, body, live = self.player.frame, self.selected, self.director.timeline is not None
         if body is None:
-            entries = entries_of_place(
-                point, self.grab.name, self._actions, self._tools.measure_from, live=live
-            )
+            entries = entries_of_place(point, self._actions, self._tools.measure_from, live=live)
         else:
             entries = entries_of_body(frame, body, self._actions, live=live)
         self.toolbar.menu.open("offer", lambda: entries, (x, y))
