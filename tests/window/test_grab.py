@@ -12,7 +12,7 @@ from mars2d.bodies.joints import Rope
 from mars2d.bodies.props import Box
 from mars2d.core.scene import Circle, Line, Text
 from mars2d.output.raster.camera import Camera
-from mars2d.window.run import drags, grab
+from mars2d.window.run import drags
 from mars2d.window.run.drags import pull_of
 from mars2d.window.run.grab import Grab
 from tests.cases import each_case
@@ -218,13 +218,3 @@ def test_a_right_drag_turns_a_body_to_the_pointer():
     assert person.words() == ["135\N{DEGREE SIGN} (2.356 rad)"]
     person.release(-0.5, 0.5)
     assert person.world.pose[:, 0] == pytest.approx((0, 0, 3 * pi / 4))
-
-
-def test_with_ctrl_it_is_turned_by_fifteen_degrees(monkeypatch):
-    monkeypatch.setattr(grab, "_mods", lambda: CTRL)
-    person = Person()
-    person.press(0, 0, RIGHT)
-    person.move(0.5, 0.3)
-    assert person.words() == ["30\N{DEGREE SIGN} (0.5236 rad)"]
-    person.release(0.5, 0.3)
-    assert person.world.pose[2, 0] == pytest.approx(pi / 6)

@@ -44,7 +44,7 @@ from mars2d.window.panels.readout import (
     state_of,
 )
 from mars2d.window.panels.sensorplot import history
-from mars2d.window.screen.selection import Selection
+from mars2d.window.screen.picking import Selection
 from tests.cases import each_case
 from tests.window.written import Written, painter
 

@@ -26,7 +26,7 @@ from mars2d.window.panels.readout import (
 )
 from mars2d.window.panels.rows import Row, RowsPanel
 from mars2d.window.panels.sensorplot import TITLE, SensorPlot, plot_of
-from mars2d.window.screen.selection import Selection
+from mars2d.window.screen.picking import Selection
 from mars2d.window.widgets.words import Word, write_line
 
 LEAST = 176.0

@@ -80,7 +80,7 @@ class Grab:
             self._begin(frame, camera, running)
         point = _world(camera, pixel)
         if self._drag is not None:
-            self._drag.move(frame, point, _mods())
+            self._drag.move(frame, point)
         else:
             self.over = body_at(frame, point, self.click / camera.scale)
         self._show_cursor()
@@ -117,7 +117,7 @@ class Grab:
         self._pressed = None
         if self._drag is not None:
             drag, self._drag = self._drag, None
-            drag.move(frame, _world(camera, pixel), _mods())
+            drag.move(frame, _world(camera, pixel))
             drag.end()
         self.move(frame, camera, pixel, running)
         return not clicked
@@ -129,7 +129,7 @@ class Grab:
         if self._pressed is not None and running and self._clock() - self._pressed[3] > LONG:
             self._begin(frame, camera, running)
         if self._drag is not None:
-            self._drag.move(frame, _world(camera, self._pixel), _mods())
+            self._drag.move(frame, _world(camera, self._pixel))
         elif self._inside:
             self.move(frame, camera, self._pixel, running)
 
@@ -212,11 +212,6 @@ class Grab:
             self._cursor = cursor
             with suppress(pygame.error):  # not every screen has all cursors
                 pygame.mouse.set_cursor(cursor)
-
-
-def _mods() -> int:
-    """Return the modifier keys that are held; none without a window."""
-    return pygame.key.get_mods() if pygame.display.get_init() else 0
 
 
 def _world(camera: Camera, pixel: Pixel) -> Point:

@@ -41,6 +41,7 @@ class Reload:
         self._timeline, self._progress = timeline, progress
         self._next = self._since = 0.0  # when to look again; when files last changed
         self._stamps: dict[Path, Stamp | None] = {}
+        self._read_stamps = self._stamps
         self._adopt()
 
     def poll(self, now: float) -> Reloaded | None:

@@ -55,8 +55,7 @@ from mars2d.window.run.tools import Tools
 from mars2d.window.screen.display import (
     Preferences,
 )
-from mars2d.window.screen.picking import body_at, next_body, selection_mark, sensed_by
-from mars2d.window.screen.selection import Selection
+from mars2d.window.screen.picking import Selection, body_at, next_body, selection_mark, sensed_by
 from mars2d.window.screen.source import Playback, Source
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.dock import Dock

@@ -15,6 +15,14 @@ from mars2d.output.raster.theme import LIGHT
 from mars2d.record.frame import Float, Frame
 
 
+class Selection:
+    """The selected body, an index of `Scenario.bodies`; None for none."""
+
+    def __init__(self, body: int | None = None) -> None:
+        """Start with a body, or with none."""
+        self.body = body
+
+
 def body_at(
     frame: Frame, point: tuple[float, float], slack: float, but: Collection[int] = ()
 ) -> int | None:
