@@ -34,8 +34,8 @@ from mars2d.window.run.ending import Ending
 from mars2d.window.run.player_window import PlayerWindow
 from mars2d.window.run.toolbar import Toolbar
 from mars2d.window.screen.display import Preferences
+from mars2d.window.screen.source import Trio
 from mars2d.window.screen.viewpoint import Viewpoint, wheel_notches
-from mars2d.window.trio import Trio
 from mars2d.window.widgets.actions import Action
 from mars2d.window.widgets.plot import Limits, draw_axes, polylines
 from mars2d.world.timeline import Timeline

@@ -122,7 +122,7 @@ def show_comparison(
     require_pygame("a window")
     from mars2d.window.compare_window import CompareWindow
     from mars2d.window.screen.memory import Memory
-    from mars2d.window.trio import Trio
+    from mars2d.window.screen.source import Trio
 
     memory, runs = Memory(), {mode: Timeline(opened(mode)) for mode in MODES}
     CompareWindow(Trio(runs), speed, memory.size, preferences or memory.preferences()).run()

@@ -17,8 +17,7 @@ from mars2d.window.editor_window import EditorWindow
 from mars2d.window.run.window import Window
 from mars2d.window.screen.display import Preferences
 from mars2d.window.screen.looks import Looks
-from mars2d.window.screen.source import Playback
-from mars2d.window.trio import Trio
+from mars2d.window.screen.source import Playback, Trio
 from mars2d.world.record import load
 from mars2d.world.timeline import Timeline
 from tests.window.circling import Circling, circling_scenario

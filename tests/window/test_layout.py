@@ -21,7 +21,7 @@ from mars2d.window.run.window import Window
 from mars2d.window.screen.display import Preferences
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.memory import Memory
-from mars2d.window.trio import Trio
+from mars2d.window.screen.source import Trio
 from mars2d.world.timeline import Timeline
 from tests.cases import each_case
 from tests.window.written import Pens, Written

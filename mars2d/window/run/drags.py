@@ -245,13 +245,15 @@ def within(rigid: Rigid, point: Point) -> Point:
 # -- marks ------------------------------------------------------------------------------------
 
 
-def draw_ring(scene: Scene, frame: Frame, body: int, color: str, width: float) -> None:
-    """Draw a ring round a body; width: of its line, points."""
+def draw_ring(
+    scene: Scene, frame: Frame, body: int, color: str, width: float, far: float = 6.0
+) -> None:
+    """Draw a ring round a body; width: of its line, far: its least radius, points."""
     center, radius = bounding_circle(
         frame.scenario.bodies[body].shape, np.array(frame.body_pose(body))
     )
     for stroke, more in ((HALO, 2.0), (color, 0.0)):
-        scene.circle(center, radius, stroke=stroke, width=width + more, pixels=6.0)
+        scene.circle(center, radius, stroke=stroke, width=width + more, pixels=far)
 
 
 def draw_label(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from contextlib import suppress
 from math import dist
 from typing import Literal
 
@@ -64,7 +63,6 @@ class Grab:
         self._grip: Point = (0.0, 0.0)  # where the body was pressed, in its own frame
         self._pixel: Pixel = (0, 0)
         self._inside = False  # the picture
-        self._cursor = pygame.SYSTEM_CURSOR_ARROW
 
     # -- events ---------------------------------------------------------------------------------
 
@@ -83,14 +81,12 @@ class Grab:
             self._drag.move(frame, point)
         else:
             self.over = body_at(frame, point, self.click / camera.scale)
-        self._show_cursor()
 
     def leave(self) -> None:
         """Move the pointer out of the picture; a drag goes on."""
         self._inside = False
         if not self.busy:
             self.over = None
-        self._show_cursor()
 
     def press(
         self, frame: Frame, camera: Camera, pixel: Pixel, button: int, mods: int, running: bool
@@ -138,7 +134,6 @@ class Grab:
         drag, self._drag, self._pressed = self._drag, None, None
         if drag is not None and drag.keeps:
             drag.end()
-        self._show_cursor()
 
     def _begin(self, frame: Frame, camera: Camera, running: bool) -> None:
         """Begin the drag that the held button asks for, if it is possible."""
@@ -200,18 +195,6 @@ class Grab:
                 name = f"{frame.scenario.bodies[self.over].name}  {more}".strip()
                 draw_label(scene, frame, camera, self.over, name, LIGHT.ink)
         return scene.shapes
-
-    def _show_cursor(self) -> None:
-        """Set the pointer's shape."""
-        cursor = pygame.SYSTEM_CURSOR_ARROW
-        if self._drag is not None:
-            cursor = pygame.SYSTEM_CURSOR_SIZEALL
-        elif self.over is not None:
-            cursor = pygame.SYSTEM_CURSOR_HAND
-        if cursor != self._cursor and pygame.display.get_init():
-            self._cursor = cursor
-            with suppress(pygame.error):  # not every screen has all cursors
-                pygame.mouse.set_cursor(cursor)
 
 
 def _world(camera: Camera, pixel: Pixel) -> Point:

@@ -34,6 +34,7 @@ from mars2d.window.panels.scopes import Scopes
 from mars2d.window.run import keys
 from mars2d.window.run.countdown import Countdown
 from mars2d.window.run.director import RECORDING, Director
+from mars2d.window.run.drags import GOOD, draw_ring
 from mars2d.window.run.ending import Ending
 from mars2d.window.run.ghosts import ghosts
 from mars2d.window.run.grab import CLICK, Grab
@@ -55,12 +56,11 @@ from mars2d.window.run.tools import Tools
 from mars2d.window.screen.display import (
     Preferences,
 )
-from mars2d.window.screen.picking import Selection, body_at, next_body, selection_mark, sensed_by
+from mars2d.window.screen.picking import Selection, body_at, next_body, sensed_by
 from mars2d.window.screen.source import Playback, Source
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.dock import Dock
 from mars2d.window.widgets.menu import Entry
-from mars2d.window.widgets.notes import Progress, draw_progress
 from mars2d.world.timeline import Timeline
 
 if TYPE_CHECKING:
@@ -111,7 +111,6 @@ class Window(PlayerWindow):
         self._unseen = False  # whether a game has not been drawn yet
         timeline = self.director.timeline
         self._reload = None if timeline is None else Reload(timeline, self._show_way_back)
-        self._way_back: Progress | None = None
         self._ending = Ending(self.player)
         self._cast = _cast(source)
         painter = self._painter = self.looks.painter
@@ -303,7 +302,9 @@ class Window(PlayerWindow):
             squeezed = "" if over is None else in_newtons(float(squeezes(frame)[over]))
         marks = self.grab.marks(frame, self.camera, named=self.layers.names, more=squeezed)
         if self.selected is not None:
-            marks = [*selection_mark(frame, self.selected).shapes, *marks]
+            ring = Scene()
+            draw_ring(ring, frame, self.selected, GOOD, 2.5, 10.0)
+            marks = [*ring.shapes, *marks]
         timeline = self.director.timeline
         source, done = self.player.source, list[Intervention]()
         if timeline is not None:
@@ -332,8 +333,6 @@ class Window(PlayerWindow):
         if notes and not self.saver.filming:
             off = self._selected_pixel(frame)
             self.notes.draw(surface, layout.plot, self._painter, time.monotonic(), off)
-        if self._way_back is not None:
-            draw_progress(surface, layout.plot, self._painter, self._way_back)
         self._tools.stopwatch.draw(surface, self.viewpoint.room, self._painter, frame.time)
         self._draw_bars(surface, frame, banner)
         if self._before is not None and notes:
@@ -670,14 +669,13 @@ class Window(PlayerWindow):
             self.director.apply(editor.dialogs.outcome)
             self._meet()
 
-    def _show_way_back(self, share: float) -> bool:
-        """Draw the progress of going back; return whether to go on: False after Esc."""
-        self._way_back = Progress(f"Going back to {self.player.frame.time:.1f} s", share)
+    def _show_way_back(self, share: float) -> bool:  # noqa: ARG002
+        """Say that a world goes back, which takes a while; return whether it may."""
+        self.notes.say(f"going back to {self.player.frame.time:.1f} s; Esc stays here")
         surface = pygame.display.get_surface()
         if surface is not None:
             self.draw(surface)
             pygame.display.flip()
-        self._way_back = None
         leaving = pygame.event.get(pygame.QUIT)
         self._open = self._open and not leaving
         keys_down = pygame.event.get(pygame.KEYDOWN)

@@ -8,10 +8,7 @@ from math import hypot
 
 import numpy as np
 
-from mars2d.core.scene import Scene
 from mars2d.geometry.shapes import Piece
-from mars2d.output.layers.bodies import bounding_circle
-from mars2d.output.raster.theme import LIGHT
 from mars2d.record.frame import Float, Frame
 
 
@@ -73,13 +70,3 @@ def sensed_by(frame: Frame, body: int | None) -> Frame:
         for name, readings in frame.readings.items()
     }
     return replace(frame, readings=own) if any(own.values()) else frame
-
-
-def selection_mark(frame: Frame, body: int) -> Scene:
-    """Return the ring round a selected body."""
-    scene = Scene()
-    pose = np.array(frame.body_pose(body))
-    center, radius = bounding_circle(frame.scenario.bodies[body].shape, pose)
-    for color, width in (("#ffffff", 4.5), (LIGHT.selected, 2.5)):
-        scene.circle(center, radius, stroke=color, width=width, pixels=10.0)
-    return scene
