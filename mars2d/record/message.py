@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from bisect import bisect_left
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -107,6 +108,15 @@ def _plain(value: Any, where: str, within: tuple[Any, ...]) -> Any:
 
 def _unfit(where: str, value: Any, why: str) -> LawError:
     return LawError(f"robot.send: {where} = {shown(value)} can't be recorded: {why}")
+
+
+def packed(contents: Sequence[str]) -> dict[str, NDArray[Any]]:
+    """Return the texts of messages as two columns: all bytes in turn, and how many each has."""
+    texts = [text.encode() for text in contents]
+    return {
+        "contents": np.frombuffer(b"".join(texts), dtype=np.uint8),
+        "content_sizes": np.array([len(text) for text in texts], dtype=np.int64),
+    }
 
 
 def as_of(messages: NDArray[np.void], time: float) -> NDArray[np.void]:

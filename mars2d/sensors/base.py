@@ -269,10 +269,7 @@ class Sensor(Stateful):
         default=0.0, check=spread("a step"),
         doc="values are rounded to multiples of it; one number, or one for each quantity",
     )  # fmt: skip
-    recorded: bool = flag(
-        default=True,
-        doc="whether it is recorded at each step; else it is measured only when a law reads it",
-    )
+    recorded: bool = flag(default=True, doc="whether its readings are kept in the record")
 
     @property
     def key(self) -> str:

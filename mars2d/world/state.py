@@ -18,7 +18,6 @@ from mars2d.core.usercode import called
 from mars2d.physics.engine import Engine
 from mars2d.physics.kinematics import Kinematics
 from mars2d.physics.versions import versions
-from mars2d.record.columns import Storage
 from mars2d.record.contact import CONTACT
 from mars2d.record.energy import Energy, Momentum, energy_of, momentum_of
 from mars2d.record.recorder import History, Recorder, Unrecorded
@@ -97,13 +96,12 @@ class State(Uncopied):
         self,
         scenario: Scenario,
         seed: int,
-        storage: Storage | None,
+        record: bool,
         options: Mapping[str, Any],
     ) -> None:
         """Put the bodies where they start.
 
-        storage: makes the columns of the record; None: nothing is recorded. options: that the
-        record states.
+        record: whether it is recorded. options: that the record states.
         """
         self.scenario = scenario
         self.seed = seed
@@ -111,12 +109,7 @@ class State(Uncopied):
         self.over = False
         self.over_message = ""
         self.broken_off = False
-        self.storage = storage
-        self.recorder = (
-            Unrecorded(scenario, options=options)
-            if storage is None
-            else Recorder(scenario, storage, versions, options)
-        )
+        self.recorder = (Recorder if record else Unrecorded)(scenario, versions, options)
         self.history = History(self.recorder)
         self.addons = Addons()
         n = len(scenario.robots)
