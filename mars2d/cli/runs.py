@@ -53,17 +53,14 @@ def run_headless(
         return simulate(experiment, speed, [*watchers, lambda at: update(at.iteration)], log)
 
 
-def source_of(name: str, path: Path, otherwise: str = "") -> str:
-    """Return the experiment that a file names: a file here or beside that file, or an example.
-
-    otherwise: what there is to do where it is none of these.
-    """
+def source_of(name: str, path: Path) -> str:
+    """Return the experiment that a file names: a file here or beside that file, or an example."""
     for place in (Path(name), path.parent / name, path.parent / Path(name).name):
         if name and place.is_file():
             return str(place)
     if experiment_name(Path(name)) in examples():
         return experiment_name(Path(name))
-    raise InputError(f"{path}: {name} is neither in this folder nor beside it{otherwise}")
+    raise InputError(f"{path}: {name} is neither in this folder nor beside it")
 
 
 def print_table(title: str, lines: Mapping[str, str]) -> None:

@@ -12,9 +12,7 @@ from mars2d.bodies.props import Box
 from mars2d.cli import command_line as cli
 from mars2d.core.errors import InputError
 from mars2d.record.rows import COLUMNS
-from mars2d.scenario.experiment import open_experiment
-from mars2d.world.loop import open_world
-from mars2d.world.verify import ask_again, rerun
+from mars2d.world.verify import rerun
 from tests.cases import each_case
 
 
@@ -58,24 +56,16 @@ def test_a_run_is_the_same_again_with_each_physics(physics, on_exit):
 
 def test_one_ulp_of_a_robots_place_is_found_where_it_is(record):
     found = rerun(altered(record, "pose", (7, 0, 1), one_ulp))
-    ulp = np.spacing(abs(record.pose[7, 0, 1]))
     assert (found.row, found.what, found.bodies) == (7, "pose", ("blue",))
     assert found.time == record.time[7]
-    assert found.metres == pytest.approx(ulp, rel=0.5)
-    assert found.radians == 0
-    assert str(found).startswith("row 7, at 0.7 s: blue is off by ")
-    assert "e-17 m and 0 rad" in str(found) or "e-16 m and 0 rad" in str(found)
+    told = str(found)
+    assert told.startswith("row 7, at 0.7 s: the pose of blue is off by ")
+    assert told.endswith(("e-17 m and 0 rad", "e-16 m and 0 rad"))
 
 
-def test_metres_and_radians_are_told_apart(record):
-    found = rerun(altered(record, "pose", (12, 2, 0), lambda angle: angle + 0.25))
-    assert (found.row, found.bodies, found.metres) == (12, ("red",), 0)
-    assert found.radians == pytest.approx(0.25)
-
-
-def test_the_body_that_is_off_most_is_named_and_the_others_counted(record):
+def test_the_body_that_is_off_most_is_named(record):
     off = altered(record, "pose", (3, 0), lambda x: x + np.array([1e-3, 2e-3]))
-    assert str(rerun(off)).endswith("blue is off by 0.002 m and 0 rad, and 1 other by less")
+    assert str(rerun(off)).endswith("blue is off by 0.002 m and 0 rad")
 
 
 def test_a_prop_is_found_by_its_name(record):
@@ -87,10 +77,9 @@ def test_the_sign_of_a_zero_counts_since_it_is_a_bit(record):
     assert record.pose[2, 2, 0] == 0
     found = rerun(altered(record, "pose", (2, 2, 0), lambda zero: -zero))
     assert found.row == 2
-    assert "a zero has another sign" in str(found)
 
 
-def test_an_effort_is_told_with_both_values(record):
+def test_an_effort_is_found(record):
     found = rerun(altered(record, "effort", (9, 0), lambda effort: effort + 0.5))
     assert (found.row, found.what, found.bodies) == (9, "effort", ("red",))
     assert "off by 0.5" in found.how
@@ -101,7 +90,6 @@ def test_a_contact_departs_at_its_own_row_not_at_the_last(record):
     contacts["impulse"][2] += 0.125
     found = rerun(replace(record, contacts=contacts))
     assert (found.what, found.bodies) == ("contact", ("red", "blue"))
-    assert "another impulse: off by 0.125" in str(found)
     assert record.time[found.row - 1] <= contacts["time"][2] <= record.time[found.row]
     assert found.row < len(record) - 1
 
@@ -113,8 +101,6 @@ def test_a_contact_that_is_missing_or_too_many_is_told(record, first):
     gone = record.contacts["time"][0 if first else -1]
     assert found.what == "contact"
     assert found.time - 0.1 - 1e-9 <= gone <= found.time
-    if not first:
-        assert "is not in the record" in str(found)
 
 
 def test_what_departs_first_is_told(record):
@@ -170,105 +156,6 @@ def test_check_says_where_and_by_how_much_and_with_what_it_was_made(record, tmp_
     code, _, told = check(old, tmp_path / "a.npz", capsys)
     assert code == 1
     assert "a.npz: run again from its recorded commands, it departs at row 7, at 0.7 s: " in told
-    assert "blue is off by 0.5 m and 0 rad" in told
+    assert "the pose of blue is off by 0.5 m and 0 rad" in told
     assert f"it was made with numpy 1.2.3, here {np.__version__}" in told
     assert told.count("\n") == 1
-
-
-# -- the laws, asked again ------------------------------------------------------------------------
-
-LAWS = """\
-from mars2d import Robot, Scenario
-from mars2d.sensors import Proximity
-
-
-def go(robot):
-    robot.memory.turns = getattr(robot.memory, "turns", 0) + 1
-    near = robot.sense.proximity
-    return 0.3 - 0.1 * near, 0.1 * robot.rng.uniform(-1, 1) + GAIN * (robot.memory.turns == 8)
-
-
-def scenario(speed=1.0):
-    red = Robot(name="red", pose=(-1, 0, 0), controller=go, sensors=[Proximity(range=1.0)])
-    return Scenario(robots=[red, red.replace(name="blue", pose=(0.5, 0.05, 3))], stop_time=3)
-"""
-
-
-@pytest.fixture
-def walk(tmp_path, monkeypatch):
-    """A record, and the file of its laws, in the current folder."""
-    monkeypatch.chdir(tmp_path)
-    path = tmp_path / "walk.py"
-    path.write_text(LAWS.replace("GAIN", "0.0"))
-    assert cli.main(["run", "walk.py", "--headless", "--seed", "3", "--record", "walk.npz"]) == 0
-    return path
-
-
-def test_laws_that_were_not_changed_decide_the_same(walk, capsys):
-    assert cli.main(["check", "walk.npz", "--laws"]) == 0
-    assert capsys.readouterr().out.endswith("laws        of walk.py: decide the same in all rows\n")
-
-
-def test_a_law_that_was_changed_is_told_with_its_row_and_command(walk, capsys):
-    walk.write_text(LAWS.replace("GAIN", "0.5"))
-    assert cli.main(["check", "walk.npz"]) == 0
-    capsys.readouterr()
-    assert cli.main(["check", "walk.npz", "--laws"]) == 1
-    told = capsys.readouterr().err
-    record = mars2d.load("walk.npz")
-    v, w = record.command[7, :, 0]
-    assert "asked again, walk.py departs at row 7, at 0.7 s: the command of red is now " in told
-    assert f"is now ({v:g}, {w + 0.5:g}), not ({v:g}, {w:g}), and so of 1 other\n" in told
-
-
-def test_a_command_by_hand_is_no_laws(walk):
-    world = open_world(open_experiment(str(walk), seed=3))
-    for k in range(12):
-        if k == 4:
-            world.operator.steer("red", (0.1, 0.2))
-        if k == 9:
-            world.operator.steer("red", None)
-        world.step()
-    assert ask_again(world.record, open_experiment(str(walk))) == []
-
-
-def test_another_scenario_departs_by_its_poses(walk, capsys):
-    walk.write_text(LAWS.replace("GAIN", "0.0").replace("0.05, 3", "0.05, 2"))
-    assert cli.main(["check", "walk.npz", "--laws"]) == 1
-    assert "departs at row 0, at 0 s: blue is off by 0 m and 1 rad" in capsys.readouterr().err
-
-
-def test_settings_are_those_of_the_run(walk, capsys):
-    again = ["--set", "robots.1.pose=(1.5, 0, 3)"]
-    assert cli.main(["run", "walk.py", "--headless", "--record", "other.npz", *again]) == 0
-    assert cli.main(["check", "other.npz", "--laws"]) == 0
-    assert cli.main(["check", "other.npz", "--laws", "walk.py", *again]) == 0
-    assert cli.main(["check", "other.npz", "--laws", "walk.py"]) == 1
-    assert cli.main(["check", "other.npz", "--laws", "--set", "robots.1.pose=(1, 0, 3)"]) == 1
-
-
-@each_case(
-    ("words", "message"),
-    [
-        (["walk.py", "--laws"], "--laws is for records: .npz"),
-        (
-            ["walk.npz", "--laws", "wolk.py"],
-            "wolk.py: there is no such file; did you mean 'walk.py'",
-        ),
-        (
-            ["walk.npz", "--laws", "crowd"],
-            "than the record: robot0 instead of red",
-        ),
-        (["walk.npz", "--set", "seed=3"], "--set is for maps"),
-    ],
-)
-def test_laws_that_can_not_be_asked_are_refused(walk, capsys, words, message):
-    assert cli.main(["check", *words]) == 2
-    assert message in capsys.readouterr().err
-
-
-def test_an_experiment_that_is_gone_is_asked_for(walk, capsys):
-    walk.rename("elsewhere.py")
-    assert cli.main(["check", "walk.npz", "--laws"]) == 2
-    assert "walk.py is neither in this folder nor beside it: name" in capsys.readouterr().err
-    assert cli.main(["check", "walk.npz", "--laws", "elsewhere.py"]) == 0

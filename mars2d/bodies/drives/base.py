@@ -93,6 +93,8 @@ class Drive(Description):
 
     holonomic: ClassVar[bool] = False
     """Whether it can move in any direction at once."""
+    second_stick: ClassVar[bool] = False
+    """Whether a second stick turns it: then `steered` takes a third number."""
     wheel_names: ClassVar[tuple[str, str] | None] = None
     """The names of the two actuators if they are wheels, as the inspector shows them."""
 
@@ -141,12 +143,12 @@ class Drive(Description):
         """Return the commands (m, n) that ask for these speeds (A, n) of the actuators."""
         return actuators
 
-    def steered(self, across: float, ahead: float, turn: float = 0.0) -> tuple[float, ...]:  # noqa: ARG002
+    def steered(self, across: float, ahead: float) -> tuple[float, ...]:
         """Return the command that a stick asks for which is held across to the right, and ahead.
 
         across, ahead: from -1 to 1, in the picture for a drive that moves in the world's frame.
-        turn: of a second stick, to the right, for drives with three inputs. Here, the first number
-        of a command is a speed; the second is a spin, or a speed, too; others are 0.
+        Here, the first number of a command is a speed; the second is a spin, or a speed, too;
+        others are 0. A drive with a `second_stick` takes its deflection to the right, too.
         """
         most = self.max_linear_speed
         if self.frame == "world":
@@ -282,7 +284,7 @@ class Wheeled(Turning):
         left, right = actuators
         return np.array([(left + right) / 2, (right - left) / (2 * self.wheel_semiaxis)])
 
-    def steered(self, across: float, ahead: float, turn: float = 0.0) -> tuple[float, ...]:  # noqa: ARG002
+    def steered(self, across: float, ahead: float) -> tuple[float, ...]:
         """Return the command that a stick asks for; it slows down as far as it needs to turn."""
         most, spin = self.max_linear_speed, min(STICK_TURN, self.max_angular_speed or STICK_TURN)
         rim = min(spin * self.wheel_semiaxis, most)
