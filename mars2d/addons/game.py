@@ -11,7 +11,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons.contest import (
-    Capture, Elimination, Exit, Float, Outcome, Span, Teams, firsts, listed, mark, robots_of, wins,
+    Capture,
+    Elimination,
+    Exit,
+    Float,
+    Outcome,
+    Span,
+    Teams,
+    firsts,
+    listed,
+    mark,
+    robots_of,
+    wins,
 )  # fmt: skip
 from mars2d.core import checks
 from mars2d.core.arithmetic import ROUNDING, norms

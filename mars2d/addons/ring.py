@@ -7,7 +7,15 @@ from math import inf
 from typing import ClassVar
 
 from mars2d.addons.contest import (
-    MARK, Elimination, Exit, Outcome, Span, Teams, firsts, listed, mark,
+    MARK,
+    Elimination,
+    Exit,
+    Outcome,
+    Span,
+    Teams,
+    firsts,
+    listed,
+    mark,
 )  # fmt: skip
 from mars2d.core import checks
 from mars2d.core.arithmetic import norms

@@ -12,14 +12,14 @@ from mars2d.scenario.experiment import open_experiment
 from tests.cases import each_case
 from tests.processes import mars
 
-SQUARE = "LINESTRING (0 0, 6 0, 6 4, 0 4, 0 0)"
+SQUARE = '{"type": "LineString", "coordinates": [[0, 0], [6, 0], [6, 4], [0, 4], [0, 0]]}'
 
 
 @pytest.fixture(autouse=True)
 def folder(tmp_path, monkeypatch):
     """Each test has a folder with the map of a room, and an experiment in another one."""
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "room.wkt").write_text(SQUARE)
+    (tmp_path / "room.json").write_text(SQUARE)
     (tmp_path / "lab").mkdir()
     return tmp_path
 
@@ -39,7 +39,7 @@ def test_a_map_takes_the_place_of_the_scenarios_and_keeps_its_surface(folder):
         "scenario = Scenario(robots=[Robot(pose=(2, 2, 0))],"
         " addons=[Map([[(0, 0), (1, 0)]], friction=0.2, name='walls')])",
     )
-    scenario = open_experiment(path, {"map": "room.wkt"}).scenario
+    scenario = open_experiment(path, {"map": "room.json"}).scenario
     (found,) = scenario.addons
     assert len(found.obstacles()) == 4
     assert (found.friction, found.key) == (0.2, "walls")
@@ -55,12 +55,12 @@ def test_a_map_takes_the_place_of_the_scenarios_and_keeps_its_surface(folder):
 )
 def test_the_workspace_becomes_the_maps_unless_it_is_larger(folder, workspace, expected):
     path = experiment(folder, f"scenario = Scenario(robots=[Robot(pose=(2, 2, 0))], {workspace})")
-    assert open_experiment(path, {"map": "room.wkt"}).scenario.bounds == expected
+    assert open_experiment(path, {"map": "room.json"}).scenario.bounds == expected
 
 
 def test_how_it_is_read_is_set_by_options_of_the_map(folder):
     path = experiment(folder, "scenario = Scenario(robots=[Robot(pose=(2, 2, 0))])")
-    options = {"map": "room.wkt", "map.unit": 2, "map.at": (-1, -1), "map.tolerance": 0.1}
+    options = {"map": "room.json", "map.unit": 2, "map.at": (-1, -1), "map.tolerance": 0.1}
     assert open_experiment(path, options).scenario.bounds == (-2, 12, -2, 8)
 
 
@@ -76,18 +76,20 @@ def test_a_robot_that_would_stand_in_a_wall_or_outside_is_told_where_there_is_ro
 ):
     path = experiment(folder, f"scenario = Scenario(robots=[Robot(pose={pose}, diameter=0.3)])")
     with pytest.raises(InputError) as caught:
-        open_experiment(path, {"map": "room.wkt"})
+        open_experiment(path, {"map": "room.json"})
     assert str(caught.value).startswith("walk.py: Robot.pose of robot0 = (")
     assert str(caught.value).endswith(said)
     place = eval(said.partition("=")[2])
-    assert open_experiment(path, {"map": "room.wkt", "robots.0.pose": place})
+    assert open_experiment(path, {"map": "room.json", "robots.0.pose": place})
 
 
 def test_the_parameter_map_of_a_scenario_function_gets_the_value(folder):
-    (folder / "lab" / "own.wkt").write_text("LINESTRING (0 0, 1 0)")
+    (folder / "lab" / "own.json").write_text(
+        '{"type": "LineString", "coordinates": [[0, 0], [1, 0]]}'
+    )
     path = experiment(
         folder,
-        "def scenario(map='own.wkt'):\n"
+        "def scenario(map='own.json'):\n"
         "    return Scenario(robots=[Robot(pose=(2, 2, 0))], addons=[Map.from_file(map)])",
     )
 
@@ -96,33 +98,39 @@ def test_the_parameter_map_of_a_scenario_function_gets_the_value(folder):
         return found.walls
 
     assert size() == (((0, 0), (1, 0)),)  # beside the experiment
-    assert len(size(map="room.wkt")[0]) == 5  # in the current folder
+    assert len(size(map="room.json")[0]) == 5  # in the current folder
     assert size(**{"map.unit": 2}) == (((0, 0), (2, 0)),)  # its own, read otherwise
     assert size(map=Map([], walls=[[(0, 1), (1, 1)]])) == (((0, 1), (1, 1)),)
 
 
 def test_in_python_a_map_can_be_given_as_it_is():
     scenario = Scenario(robots=[mars2d.Robot(pose=(3, 2, 0))])
-    record = mars2d.run(scenario, stop_time=1, options={"map": Map.from_file("room.wkt")})
+    record = mars2d.run(scenario, stop_time=1, options={"map": Map.from_file("room.json")})
     assert len(record.scenario.obstacles) == 4
-    record = mars2d.run(scenario, stop_time=1, options={"map": "room.wkt", "map.unit": "m"})
+    record = mars2d.run(scenario, stop_time=1, options={"map": "room.json", "map.unit": "m"})
     assert len(record.scenario.obstacles) == 4
 
 
 @each_case(
     ("options", "said"),
     [
-        ({"map": "rom.wkt"}, "there is no such file beside walk.py or in the current folder; did"),
+        (
+            {"map": "rom.json"},
+            "there is no such file beside walk.py or in the current folder; did",
+        ),
         ({"map": "lab"}, "lab: a folder; expected a map"),
         ({"map": 3}, "map = 3: expected the name of a map's file"),
         ({"map.unit": "cm"}, "map.unit needs map=FILE as well"),
         (
-            {"map": "room.wkt", "map.units": 1},
+            {"map": "room.json", "map.units": 1},
             "there is no option 'map.units'; did you mean 'map.unit'?",
         ),
-        ({"map": "room.wkt", "unit": "cm"}, "no option 'unit'; did you mean 'map.unit'?"),
-        ({"map": "room.wkt", "workspace": [(0, 0)]}, "Scenario.workspace = [(0, 0)]: expected a"),
-        ({"map": "room.wkt", "map.layers": "A"}, "room.wkt: layers is for .dxf, .svg"),
+        ({"map": "room.json", "unit": "cm"}, "no option 'unit'; did you mean 'map.unit'?"),
+        (
+            {"map": "room.json", "workspace": [(0, 0)]},
+            "Scenario.workspace = [(0, 0)]: expected a",
+        ),
+        ({"map": "room.json", "map.layers": "A"}, "room.json has no layer 'A'; known: no layer"),
     ],
 )
 def test_what_is_wrong_with_the_option_is_said(folder, options, said):
@@ -135,9 +143,9 @@ def test_what_is_wrong_with_the_option_is_said(folder, options, said):
 
 def test_a_record_keeps_the_walls_not_the_file(folder):
     scenario = Scenario(robots=[mars2d.Robot(pose=(3, 2, 0))])
-    record = mars2d.run(scenario, stop_time=1, options={"map": "room.wkt"})
+    record = mars2d.run(scenario, stop_time=1, options={"map": "room.json"})
     record.save("run.npz")
-    (folder / "room.wkt").unlink()
+    (folder / "room.json").unlink()
     assert mars2d.load("run.npz").scenario.obstacles == record.scenario.obstacles
 
 
@@ -146,10 +154,10 @@ def test_a_record_keeps_the_walls_not_the_file(folder):
 
 @pytest.mark.slow
 def test_check_shows_what_was_read_and_draws_it(folder):
-    done = mars("check", "room.wkt", "--set", "unit=cm", "--set", "at=(0,1)", "--figure", "a.png")
+    done = mars("check", "room.json", "--set", "unit=cm", "--set", "at=(0,1)", "--figure", "a.png")
     assert done.stderr == ""
     assert done.stdout.splitlines() == [
-        "map         room.wkt, WKT",
+        "map         room.json, GeoJSON",
         "size        0.06 m x 0.04 m",
         "from, to    (0, 1), (0.06, 1.04)",
         "unit        cm, as given",
@@ -164,14 +172,14 @@ def test_check_shows_what_was_read_and_draws_it(folder):
 @each_case(
     ("words", "said"),
     [
-        (["room.wkt", "--set", "units=cm"], "--set units: no option; did you mean 'unit'?"),
-        (["room.wkt", "--figure", "a.gif"], "--figure a.gif: expected a name that ends in"),
+        (["room.json", "--set", "units=cm"], "--set units: no option; did you mean 'unit'?"),
+        (["room.json", "--figure", "a.gif"], "--figure a.gif: expected a name that ends in"),
         (["lab.py", "--figure", "a.png"], "--figure is for maps: .dxf"),
         (
             ["plan.dwg"],
             "plan.dwg: expected a Python file (.py), a learned law (.onnx), a scenario (.toml)",
         ),
-        (["rom.wkt"], "rom.wkt: there is no such file; did you mean 'room.wkt'?"),
+        (["rom.json"], "rom.json: there is no such file; did you mean 'room.json'?"),
         (["plan.dwg"], "; save the drawing as DXF"),
     ],
 )
@@ -187,7 +195,7 @@ def test_a_picture_of_a_map_is_the_same_each_time(folder, suffix):
     from mars2d.output.figures.map import save_map
 
     for name in ("a", "b"):
-        save_map(read(folder / "room.wkt"), folder / f"{name}.{suffix}")
+        save_map(read(folder / "room.json"), folder / f"{name}.{suffix}")
     first, second = ((folder / f"{name}.{suffix}").read_bytes() for name in ("a", "b"))
     assert first == second
     assert len(first) > 1000
