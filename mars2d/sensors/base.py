@@ -92,29 +92,19 @@ class Surroundings(Protocol):
     def ray(self, start: Point, angle: float, length: float, ignore: int) -> float:
         """Return how far a ray goes until the first surface, metres; inf when nothing is hit."""
 
-    def rays(self, start: Point, angles: Float, length: ArrayLike, ignore: int) -> Float:
-        """Return how far rays at angles (k,) go, (k,) metres; inf where nothing is hit.
-
-        length: of all rays, or (k,). A ray that starts inside a robot or prop goes 0 m. Obstacles
-        are outlines: within one of them a ray goes on to its edge.
-        """
-
-    def sight(
-        self, start: Point, angles: Float, length: ArrayLike, ignore: int
-    ) -> tuple[Float, Int]:
-        """Return how far rays go, as `rays`, and which body each hits, (k,): NOTHING if none."""
-
     def scans(self, poses: Float, bearings: Float, length: ArrayLike, ignore: ArrayLike) -> Float:
-        """Return how far rays of many robots go, (m, k) metres, as `rays` says; much quicker.
+        """Return how far rays of robots go, (m, k) metres; inf where nothing is hit.
 
         poses: where each one's rays start, and which way it looks (3, m). bearings: of the rays
-        from there (k,) rad. ignore: the robots that ask (m,).
+        from there (k,) rad. length: of all rays, or (k,). ignore: the robots that ask (m,). A ray
+        that starts inside a robot or prop goes 0 m. Obstacles are outlines: within one of them a
+        ray goes on to its edge.
         """
 
     def sights(
         self, poses: Float, bearings: Float, length: ArrayLike, ignore: ArrayLike
     ) -> tuple[Float, Int]:
-        """Return how far rays of many robots go, as `scans`, and which body each hits, (m, k)."""
+        """Return how far rays go, as `scans`, and which body each hits, (m, k): NOTHING if none."""
 
     def hidden(
         self, start: Point, points: Float, bodies: ArrayLike, ignore: int

@@ -342,7 +342,7 @@ MARKER = f'<marker id="m" {SIZE}><rect width="2" height="2" fill="red"/></marker
         (f'<symbol id="s" viewBox="0 0 100 100">{BOX}</symbol>{USE}', shapely.box(5, 1, 7, 3)),
         (f'<svg x="2" y="1" width="4" height="2" viewBox="0 0 100 100">{BOX}</svg>',
          shapely.box(3, 5, 5, 7)),  # in the middle of its place
-        (f'<svg width="4" height="2" viewBox="0 0 50 50" preserveAspectRatio="none">{BOX}</svg>',
+        (f'<svg width="4" height="2" viewBox="0 0 100 100" preserveAspectRatio="none">{BOX}</svg>',
          shapely.box(0, 6, 4, 8)),
         ('<rect x="10%" y="25%" width="50%" height="50%"/>', shapely.box(1, 2, 6, 6)),
         ('<rect width="3" height="3"/><rect x="1" width="1" height="9" fill="white"/>',
