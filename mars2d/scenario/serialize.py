@@ -246,7 +246,11 @@ def _to_description(value: Any, missing: list[str]) -> Any:
         if value["own"] == "prop":
             missing.extend(f"joint {joint['type']} of {value['type']}" for joint in value["joints"])
         return _stand_in(value["own"], fields)
-    return _kinds()[value["type"]](**fields)
+    kind = _kinds()[value["type"]]
+    known = kind.__dataclass_fields__  # a record from before may say of others that they are None
+    return kind(
+        **{name: each for name, each in fields.items() if each is not None or name in known}
+    )
 
 
 def _is_function(value: Any) -> bool:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import json
 import math
 
@@ -12,26 +11,22 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import mars2d
-from mars2d import Addon, Holonomic, InputError, LawError, Record, Robot, Scenario, World
+from mars2d import Holonomic, InputError, LawError, Record, Robot, Scenario, World
 from mars2d.addons import Burst, Communication, Map
 from mars2d.core.scene import Arrow, Line
-from mars2d.output.layers.messages import LOST_LINK, messages
-from mars2d.output.raster.picture import paint_frame
+from mars2d.output.layers.messages import messages
 from mars2d.record.message import (
     DELIVERED,
     LOST,
     MAX_BYTES,
-    MESSAGE,
     ON_ITS_WAY,
     OUT_OF_REACH,
     OVER_BANDWIDTH,
-    STATUS,
     Message,
     as_text,
 )
-from mars2d.scenario import serialize
-from mars2d.scenario.experiment import open_experiment, open_module
-from mars2d.scenario.neighbours import Everyone, Graph, Nearest, Neighbourhood, Within
+from mars2d.scenario.experiment import open_experiment
+from mars2d.scenario.neighbours import Everyone, Nearest, Neighbourhood, Within
 from mars2d.world.loop import simulate
 from mars2d.world.verify import rerun
 from tests.cases import each_case
@@ -152,30 +147,6 @@ def test_without_the_addon_robots_cannot_talk():
             use()
 
 
-@each_case("sees", ["full", "partial", "positions", "sensors"])
-def test_whatever_a_law_sees_it_may_talk(sees):
-    got = []
-
-    def law(robot):
-        got.extend(robot.inbox)
-        robot.send(robot.index)
-        return STILL
-
-    mars2d.run(team(2, robot={"controller": law, "sees": sees}, stop_time=0.1))
-    assert [message.content for message in got] == [1, 0]
-
-
-def test_addons_may_send_in_the_name_of_robots_before_the_laws_do():
-    class Herald(Addon):
-        def on_step(self, world):
-            world.robots[0].send(f"herald {world.iteration}")
-
-    world = World(team(2, addons=[Herald(), Communication()]))
-    stand(world)
-    world.observe()
-    assert contents(world.robots[1]) == ["herald 0"]
-
-
 # -- contents -------------------------------------------------------------------------------------
 
 
@@ -251,18 +222,6 @@ def test_each_receiver_has_a_copy_of_its_own():
 
 
 # -- in reach -------------------------------------------------------------------------------------
-
-
-def test_to_all_in_reach_has_a_row_for_each_of_those_and_to_a_name_in_any_case():
-    def say(world):
-        world.robots[0].send("all")
-        world.robots[0].send("you", to=[1, 2])
-
-    record = talking(team(3, talk=Communication(range=1.5), stop_time=0.1), say)
-    first = record.messages[record.messages["time"] == 0.0]
-    assert first["receiver"].tolist() == [1, 1, 2]
-    assert first["status"].tolist() == [DELIVERED, DELIVERED, OUT_OF_REACH]
-    assert np.isnan(first["arrival"]).tolist() == [False, False, True]
 
 
 def test_who_is_in_reach_is_judged_when_the_message_is_sent():
@@ -369,33 +328,6 @@ def test_a_lost_message_never_arrives_and_the_sender_is_not_told():
     assert np.isnan(world.record.messages["arrival"]).all()
 
 
-def test_losses_are_drawn_link_by_link_in_the_order_of_senders_and_receivers():
-    def say(world):
-        for i in (2, 0, 1):
-            world.robots[i].send(i)
-
-    record = talking(team(4, talk=Communication(loss=0.3, range=2.0), stop_time=3.0), say, seed=8)
-    drawn = World(record.scenario, seed=8).stream("add-on communication")
-    assert lost(record).tolist() == [drawn.random() < 0.3 for _ in record.messages]
-
-
-def test_a_perfect_channel_draws_no_random_numbers():
-    class Watch(Communication):
-        def on_stop(self, world):
-            drawn.append(
-                self.rng.bit_generator.state != world.stream("add-on watch").bit_generator.state
-            )
-
-    drawn: list[bool] = []
-    for fields in (
-        {},
-        {"range": 5.0, "delay": 0.3, "bandwidth": 9, "line_of_sight": True},
-        {"loss": 0.1},
-    ):
-        talking(team(2, talk=Watch(**fields)), to_one)
-    assert drawn == [False, False, True]
-
-
 BURST = Burst(good=2.5, bad=0.5)
 LINKS = 20
 
@@ -457,20 +389,6 @@ def test_a_bandwidth_lets_as_many_bytes_through_at_each_sampling_time():
     assert got == {0.1: 20 * 310, 0.01: 20 * 310}
 
 
-def test_what_is_sent_as_often_meets_the_same_channel_at_each_sampling_time():
-    def say(world):
-        if round(world.time * 100) % 10 == 0:
-            world.robots[0].send("x" * world.rng.integers(5, 60), to=[1, 2])
-
-    talk = Communication(bandwidth=310, delay=0.25, burst=BURST)
-    fates = []
-    for dt in (0.1, 0.01):
-        rows = talking(team(3, talk=talk, sampling_time=dt, stop_time=60.0), say, seed=3).messages
-        fates.append((rows["size"].tolist(), np.maximum(rows["status"], DELIVERED).tolist()))
-    assert fates[0] == fates[1]
-    assert {LOST, OVER_BANDWIDTH, DELIVERED} == set(fates[0][1])
-
-
 # -- order and seeds ------------------------------------------------------------------------------
 
 
@@ -512,21 +430,6 @@ def chatter() -> Record:
     return talking(team(3, talk=talk), say, seed=5)
 
 
-def test_messages_are_rows_with_their_contents_beside_them(chatter):
-    rows = chatter.messages
-    assert rows.dtype == MESSAGE
-    assert {STATUS[s] for s in rows["status"]} == {
-        "on its way",
-        "delivered",
-        "lost",
-        "out of reach",
-    }
-    assert np.all(np.diff(rows["time"]) >= 0)
-    for row in rows:
-        assert row["size"] == len(chatter.contents[row["content"]].encode())
-    assert json.loads(chatter.contents[0]) == {"at": [0.0, 0.0, 0.0], "note": "ü"}
-
-
 def test_messages_and_contents_come_back_from_a_file_to_the_last_bit(chatter, tmp_path):
     again = mars2d.load(chatter.save(tmp_path / "a.npz"))
     assert again.messages.tobytes() == chatter.messages.tobytes()
@@ -537,39 +440,6 @@ def test_messages_and_contents_come_back_from_a_file_to_the_last_bit(chatter, tm
     for row in (0, 3, 20):
         ours, theirs = chatter.frame(row).messages, again.frame(row).messages
         assert ours.tobytes() == theirs.tobytes()
-
-
-def test_a_burst_and_a_graph_come_back_from_plain_data():
-    scenario = team(
-        2, talk=Communication(burst=Burst(good=0.3)), neighbours=Graph([[0, 1], [1, 0]])
-    )
-    again, missing = serialize.to_scenario(
-        json.loads(json.dumps(serialize.from_description(scenario)))
-    )
-    assert again.addons == scenario.addons
-    assert again.neighbours == scenario.neighbours
-    assert missing == ()
-    nearest = scenario.replace(neighbours=Nearest(1))
-    assert serialize.to_scenario(serialize.from_description(nearest))[0].neighbours == Nearest(1)
-
-
-def test_the_digest_covers_each_field_of_messages_and_their_contents(chatter):
-    other = ("null", *chatter.contents[1:])
-    changes: list[dict] = [{}, {"contents": other}, {"contents": ("", *other)}]
-    for field in MESSAGE.names:
-        changed = chatter.messages.copy()
-        changed[field] += 1
-        changes.append({"messages": changed})
-    digests = {dataclasses.replace(chatter, **change).digest for change in changes}
-    assert len(digests) == len(changes)
-
-
-def test_as_long_as_nobody_speaks_the_digest_is_that_without_the_addon():
-    digests = {
-        mars2d.run(Scenario(robots=2, stop_time=1, addons=addons)).digest
-        for addons in ([], [Communication(loss=0.5, delay=1)])
-    }
-    assert len(digests) == 1
 
 
 def test_frames_of_a_record_have_the_messages_of_those_of_the_run():
@@ -641,38 +511,6 @@ def test_a_message_that_arrives_is_an_arrow_from_rim_to_rim():
     assert arrow.fill.startswith(world.scenario.colors[0])
 
 
-def test_a_message_is_drawn_where_it_is_on_its_way():
-    world = spoken(Communication(delay=0.4))
-    tips = [links(world)[1].tip[0]]
-    for _ in range(4):
-        stand(world)
-        tips += [shape.tip[0] for shape in links(world) if isinstance(shape, Arrow)]
-    assert tips == pytest.approx([0.15 + 1.7 * k / 4 for k in range(1, 5)])
-
-
-@each_case("talk", [Communication(loss=1.0), Communication(range=1.0), Communication(bandwidth=2)])
-def test_what_does_not_arrive_is_a_broken_line_with_a_cross(talk):
-    shapes = links(spoken(talk))
-    assert [shape.style for shape in shapes] == ["--", "-", "-"]
-    assert all(shape.stroke.startswith(LOST_LINK) for shape in shapes)
-
-
-def pixels(surface) -> np.ndarray:
-    import pygame
-
-    return pygame.surfarray.array3d(surface)
-
-
-def test_pictures_show_messages_and_without_any_nothing_changes():
-    talkers, silent = spoken(Communication()), World(team(2, gap=2.0))
-    stand(silent)
-    size = 500, 400
-    there, gone = (pixels(paint_frame(world.frame, size)) for world in (talkers, silent))
-    assert np.any(there != gone, axis=2).sum() > 100
-    hushed = dataclasses.replace(talkers.frame, messages=silent.frame.messages)
-    assert np.array_equal(pixels(paint_frame(hushed, size)), gone)
-
-
 # -- examples -------------------------------------------------------------------------------------
 
 
@@ -693,10 +531,3 @@ def test_robots_meet_and_pass_the_token_on_at_any_loss(name, seed, loss, count):
     predictions, _ = run(name, seed, loss=loss)
     assert len(predictions) == count
     assert all(p.ok for p in predictions.values())
-
-
-def test_who_loses_much_meets_later():
-    places = np.transpose(open_module("rendezvous").PLACES)
-    ends = [run("rendezvous", loss=loss, stop_time=30.0)[1].pose[-1, :2] for loss in (0.0, 0.8)]
-    left = [np.ptp(end - places, axis=1).max() for end in ends]
-    assert left[1] > 3 * left[0]

@@ -1,7 +1,5 @@
 """The add-on Game: roles, captures, score, who has won; and robots that are held."""
 
-import dataclasses
-
 import numpy as np
 import pytest
 
@@ -145,17 +143,6 @@ def test_contacts_with_others_are_no_captures():
 
 
 # -- records ------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(("later", "winner"), [(1e-14, "pursuer"), (0.05, None)])
-def test_a_capture_at_the_last_instant_counts_whose_time_is_rounded_up(later, winner):
-    """The last row is that of 3.4 s; what comes in the control step after it is in no row."""
-    record = finished(chase()).record
-    contacts = record.contacts.copy()
-    assert len(contacts) == 1
-    contacts["time"] = record.time[-1] + later
-    changed = dataclasses.replace(record, contacts=contacts)
-    assert record.scenario.addons[0].outcome(changed).winner == winner
 
 
 # -- what is refused ----------------------------------------------------------------------------

@@ -69,13 +69,6 @@ def test_it_is_a_draw_when_time_is_over_or_the_last_ones_leave_at_once(speeds, s
     assert world.addons.ring.outcome(world.record)[:3] == ((), score, None)
 
 
-def test_nobody_has_won_when_something_else_ends_it():
-    world = World(bout([1.0, 0.0, 0.0, 0.0]))
-    world.step()
-    world.stop("enough")
-    assert world.addons.ring.outcome(world.record).winner is None
-
-
 # -- records ------------------------------------------------------------------------------------
 
 

@@ -139,29 +139,6 @@ def test_the_effort_of_pushing_a_box_is_mu_m_g_over_the_force(mu):
     assert world.effort[0] == pytest.approx(mu * GRAVITY / 5, rel=2e-3)
 
 
-def test_a_box_that_is_pushed_beside_its_centre_turns():
-    world = endless([Robot(pose=(-0.4, 0.1, 0))], [Box()])
-    drive(world, [[0.2], [0]], 3)
-    assert world.prop_pose[2, 0] < -0.3
-
-
-def test_a_box_pushed_at_both_ends_alike_keeps_its_heading():
-    robots = [Robot(pose=(-0.4, y, 0)) for y in (-0.4, 0.4)]
-    world = endless(robots, [Box(width=1.2, ground_friction=0.6)])
-    drive(world, [[0.2, 0.2], [0, 0]], 5)
-    assert abs(world.prop_pose[2, 0]) < 0.01  # the solver takes one contact after the other
-    assert world.prop_pose[0, 0] > 0.8
-
-
-def test_a_box_stays_where_it_is_left():
-    world = endless([Robot(pose=(-0.4, 0.05, 0))], [Box()])
-    drive(world, [[0.2], [0]], 2)
-    drive(world, [[-0.2], [0]], 1)
-    before = world.prop_pose
-    drive(world, [[-0.2], [0]], 5)
-    assert np.array_equal(world.prop_pose, before)
-
-
 def test_a_gate_opens_to_its_limit_and_lets_a_robot_past():
     gate = Gate(pose=(0, 0, -pi / 2), limits=(0, pi / 2))
     world = endless([Robot(pose=(-1, -0.3, 0))], [gate])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tracemalloc
 from math import cos, pi, sin
 
 import numpy as np
@@ -79,21 +78,6 @@ def test_points_on_a_square_grid_have_squares_and_the_cost_of_the_closed_form():
     assert np.array(sorted(found.edge(6, 5))) == pytest.approx(np.array([(2, 1), (2, 2)]))
 
 
-def test_one_point_has_the_whole_region():
-    found = Tessellation([[1.0], [1.0]], HOOK)
-    assert found.areas.tolist() == pytest.approx([16 - 2.5])
-    assert found.neighbours(0) == ()
-    region = shapely.Polygon(HOOK)
-    assert found.centroids[:, 0] == pytest.approx([region.centroid.x, region.centroid.y])
-
-
-def test_of_two_points_the_bisector_is_the_edge():
-    found = Tessellation([[1, 3], [1, 3]], SQUARE)
-    assert found.areas == pytest.approx([8, 8])
-    assert np.array(sorted(found.edge(1, 0))) == pytest.approx(np.array([(0, 4), (4, 0)]))
-    assert found.neighbours(1) == (0,)
-
-
 def test_of_points_at_the_same_place_the_first_has_the_cell():
     found = Tessellation([[1, 3, 1, 1], [2, 2, 2, 2]], SQUARE)
     assert found.areas.tolist() == pytest.approx([8, 8, 0, 0])
@@ -101,15 +85,6 @@ def test_of_points_at_the_same_place_the_first_has_the_cell():
     assert (found.cells[2].is_empty, found.neighbours(2), found.edge(1, 2)) == (True, (), None)
     assert found.cost == Tessellation([[1, 3], [2, 2]], SQUARE).cost
     assert Tessellation([[1, 1], [1, 1]], SQUARE).areas.tolist() == pytest.approx([16, 0])
-
-
-def test_a_large_team_needs_memory_in_proportion():
-    tracemalloc.start()
-    points = np.random.default_rng(0).uniform(0, 4, (2, 4000))
-    assert Tessellation(points, SQUARE).areas.sum() == pytest.approx(16)
-    peak = tracemalloc.get_traced_memory()[1]
-    tracemalloc.stop()
-    assert peak < 30e6  # a table of all pairs would have 128 MB
 
 
 def test_points_outside_of_the_region_have_what_of_it_is_nearest_to_them():
@@ -248,12 +223,6 @@ def test_polynomials_are_integrated_exactly():
     first = sum((b**4 - a**4) / 4 * (d**2 - c**2) / 2 for a, b, c, d in boxes)
     assert found.masses == pytest.approx([mass], rel=1e-12)
     assert found.centroids[0] == pytest.approx([first / mass], rel=1e-12)
-
-
-def test_a_cell_without_mass_has_its_point_as_centroid():
-    found = Tessellation([[1, 3], [1, 1]], SQUARE, lambda x, y: np.where(x < 2, 1.0, 0.0))
-    assert found.masses == pytest.approx([8, 0])
-    assert found.centroids[:, 1].tolist() == [3, 1]
 
 
 @each_case(

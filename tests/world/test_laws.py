@@ -19,11 +19,6 @@ def team(*laws, **fields) -> Scenario:
 # -- kinds of laws --------------------------------------------------------------------------
 
 
-def test_a_law_is_a_function_of_its_robot():
-    record = mars2d.run(team(lambda robot: (0.1, robot.index), lambda robot: (0.2, robot.index)))
-    assert record.command[0].tolist() == [[0.1, 0.2], [0, 1]]
-
-
 def test_a_law_can_be_a_generator_with_a_memory_of_its_own():
     def steps(robot):
         for speed in (0.1, 0.2, 0.3):
@@ -46,16 +41,6 @@ def test_when_a_generator_returns_its_robot_stands_still():
     assert record.finished
 
 
-def test_each_robot_runs_its_own_copy_of_a_generator():
-    def count(robot):
-        for k in range(9):
-            yield 0.01 * k * (robot.index + 1), 0
-
-    record = mars2d.run(team(count, count))
-    expected = np.array([[0, 0], [0.01, 0.02], [0.02, 0.04]])
-    assert record.command[:3, 0] == pytest.approx(expected)
-
-
 def test_a_law_can_be_any_callable():
     class Cruise:
         def __init__(self, speed):
@@ -73,11 +58,6 @@ def test_a_robots_own_law_overrides_its_column_of_the_teams():
     )
     record = mars2d.run(scenario, control=lambda _world: [[0.1, 0.1], [0, 0]])
     assert record.command[0].tolist() == [[0.1, 0.3], [0, 0.2]]
-
-
-def test_without_a_law_robots_stand_still():
-    record = mars2d.run(Scenario(robots=2, stop_time=1))
-    assert not record.command.any()
 
 
 @each_case(

@@ -9,7 +9,6 @@ from math import hypot
 import numpy as np
 import pytest
 
-import mars2d
 from mars2d import Holonomic, InputError, Robot, Scenario, Unicycle, World
 from mars2d.addons import Map
 from mars2d.bodies.joints import Rope, Spring
@@ -60,18 +59,6 @@ def test_a_body_without_friction_is_brought_to_the_pointer_and_stops_there():
     assert hypot(path[-1, 0] - 2.0, path[-1, 1]) < 0.01
 
 
-def test_let_go_a_robot_stands_where_it_was_left():
-    world, _ = pulled(Scenario(robots=[ROBOT]), 0, (2.0, 1.0), steps=8)
-    world.operator.pull(0, (0, 0), None)
-    for _ in range(5):
-        world.step()
-    there = world.pose[:, 0].copy()
-    world.step()
-    assert np.array_equal(world.pose[:, 0], there)
-    assert world.operator.pulls == ()
-    assert world.operator.force(0) == 0.0
-
-
 def test_the_way_does_not_depend_on_the_sampling_time_by_more_than_a_slice():
     ends = []
     for dt in (0.01, 0.1, 0.5):
@@ -101,12 +88,6 @@ def test_a_pull_weaker_than_the_drive_leaves_a_robot_on_its_course(drive, force)
     assert world.effort[0] == pytest.approx(force / 5.0)  # its drive bears all of it
 
 
-def test_a_stronger_one_takes_it_off():
-    robot = ROBOT.replace(controller=straight)
-    _, path = pulled(Scenario(robots=[robot]), 0, (0.0, 4.5), force=8.0, steps=60)
-    assert hypot(path[-1, 0], path[-1, 1] - 4.5) < 0.2
-
-
 def test_a_stronger_one_moves_it_as_newton_says():
     scenario = Scenario(robots=[ROBOT.at(-4, 0)], props=[CRATE])
     _, path = pulled(scenario, "box0", (4.0, 0.0), force=45.0, steps=20)
@@ -125,15 +106,6 @@ def test_two_hands_that_pull_equally_at_two_robots_meet_nobody_half_way():
 
 
 # -- walls, crowds, joints ---------------------------------------------------------------------
-
-
-@each_case(("mass", "force"), [(1.0, 17.5), (1.0, 60.0), (9.0, 400.0)])
-def test_a_robot_that_is_pulled_at_a_wall_stays_on_its_side(mass, force):
-    scenario = Scenario(robots=[ROBOT.replace(mass=mass)], addons=[WALL])
-    world, path = pulled(scenario, 0, (4.0, 0.5), force=force, speed=5.0)
-    assert path[:, 0].max() <= 1.0 - 0.15 + scenario.max_overlap
-    assert path[-1, 0] > 0.84  # and it is there
-    assert len(world.record.contacts)
 
 
 def crowd(seed):
@@ -246,17 +218,6 @@ def test_a_body_that_is_put_elsewhere_stands_still_there_and_goes_on():
     world.step()
     assert np.allclose(world.pose[:, 0], (-1.0, 1.03, np.pi / 2))
     assert world.record.pose[1, :, 0].tolist() == [-1.0, 1.0, np.pi / 2]
-
-
-def test_the_others_do_not_feel_it():
-    robots = [ROBOT.replace(controller=straight), ROBOT.at(-2, -2).replace(controller=straight)]
-    one, other = World(Scenario(robots=robots)), World(Scenario(robots=robots))
-    for k in range(20):
-        if k == 7:
-            one.operator.place(0, (2, 2, 1))
-        one.step()
-        other.step()
-    assert np.array_equal(one.pose[:, 1], other.pose[:, 1])
 
 
 ROOM = [(-3, -3), (3, -3), (3, 3), (-3, 3)]
@@ -406,15 +367,3 @@ def poked(seed=0):
 
 def test_a_run_that_hands_were_put_to_is_the_same_again_to_the_bit():
     assert rerun_is_the_same(poked())
-
-
-@pytest.mark.slow
-def test_so_it_is_from_a_file(tmp_path, capsys):
-    world = poked()
-    world.break_off("enough")
-    world.record.save(tmp_path / "poked.npz")
-    from mars2d.cli.command_line import main
-
-    assert main(["check", str(tmp_path / "poked.npz")]) == 0
-    assert "bit-identical" in capsys.readouterr().out
-    assert rerun(mars2d.load(tmp_path / "poked.npz")) is None

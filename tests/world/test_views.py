@@ -6,7 +6,6 @@ import pytest
 import mars2d
 from mars2d import Addon, Holonomic, LawError, Robot, Scenario, Sensor, Within, World
 from mars2d.addons import Communication
-from mars2d.core.errors import UnknownNameError
 from mars2d.world.team_view import TeamPositionsView
 from mars2d.world.views import VIEWS, Neighbour, PropView, RobotView
 from tests.cases import each_case
@@ -120,13 +119,6 @@ def test_each_name_of_a_world_is_known_to_this_test():
     assert names(world.robots[0].world) == OF_POSITIONS | MORE
 
 
-def test_each_setting_is_known_to_this_test():
-    (sees,) = (f for f in Robot.__dataclass_fields__.values() if f.name == "sees")
-    for setting in VIEWS:
-        assert sees.metadata["check"]("sees", setting) == setting
-    assert set(VIEWS) | {"team"} == set(ALLOWED)
-
-
 def test_no_view_has_names_that_others_have_not():
     for sees, view in views().items():
         assert names(view) == ALLOWED["full"], sees
@@ -153,13 +145,6 @@ def test_a_law_may_use_what_its_setting_allows_and_is_refused_the_rest(sees):
             assert answer.startswith(f"{REFUSALS[sees]}: robot.{name} is not available"), name
 
 
-def test_the_message_names_the_setting_and_what_is_not_available():
-    with pytest.raises(LawError) as raised:
-        asked(lambda robot: robot.pose, "sensors")
-    message = untimed(raised.value).partition(": ")[2]
-    assert message == "this law sees sensors only: robot.pose is not available"
-
-
 def test_a_teams_law_that_sees_positions_may_use_these_and_is_refused_the_rest():
     found = asked_world(lambda world: answers(world, OF_POSITIONS | MORE | OF_WHO_RUNS_IT))
     for name in OF_POSITIONS:
@@ -171,22 +156,6 @@ def test_a_teams_law_that_sees_positions_may_use_these_and_is_refused_the_rest()
         assert found[name].startswith(f"a world has no {name!r}"), name
 
 
-@each_case(
-    ("sees", "question", "unseen"),
-    [
-        ("positions", lambda robot: robot.neighbours[0].xyzzy, "pose"),
-        ("sensors", lambda robot: robot.xyzzy, "pose"),
-        ("partial", lambda robot: robot.xyzzy, "world"),
-    ],
-)
-def test_what_a_law_may_not_see_is_not_listed_as_what_there_is(sees, question, unseen):
-    with pytest.raises(UnknownNameError, match="known: ") as raised:
-        asked(question, sees)
-    known = untimed(raised.value).partition("known: ")[2].split(", ")
-    assert "index" in known
-    assert unseen not in known
-
-
 # -- what is allowed is right -----------------------------------------------------------------
 
 
@@ -195,11 +164,6 @@ def test_a_law_sees_its_own_state_and_where_its_neighbours_are(sees):
     assert asked(lambda robot: robot.pose.tolist(), sees) == [1, 2, 3]
     assert asked(lambda robot: robot.position.tolist(), sees) == [1, 2]
     assert asked(lambda robot: [n.position.tolist() for n in robot.neighbours], sees) == [[2, 2]]
-
-
-@each_case("sees", ["full", "partial"])
-def test_with_partial_information_neighbours_have_poses(sees):
-    assert asked(lambda robot: robot.neighbours[0].pose.tolist(), sees) == [2, 2, 1]
 
 
 @each_case("sees", ["positions", "team"])
@@ -246,18 +210,6 @@ def test_a_team_that_sees_positions_has_readings_messages_memory_and_may_stop():
     robots = [Robot(), Robot(pose=(1, 0, 2), sensors=[Compass()])]
     scenario = Scenario(robots=robots, sees="positions", addons=[Communication()])
     assert mars2d.run(scenario, control=control).over_message == "after 2 steps"
-
-
-def test_a_robots_own_law_keeps_its_setting_in_a_team_that_sees_less():
-    def own(robot):
-        return robot.pose[2] / 10, 0
-
-    scenario = Scenario(
-        robots=[Robot(pose=(0, 0, 2), controller=own), Robot(pose=(2, 0, 0))],
-        sees="positions", stop_time=0,
-    )  # fmt: skip
-    record = mars2d.run(scenario, control=lambda world: np.zeros((2, 2)))
-    assert record.command[0, 0].tolist() == [0.2, 0]
 
 
 # -- no way round -----------------------------------------------------------------------------

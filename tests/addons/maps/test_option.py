@@ -7,7 +7,6 @@ import pytest
 import mars2d
 from mars2d import InputError, Scenario
 from mars2d.addons import Map
-from mars2d.cli.command_line import main
 from mars2d.scenario.experiment import open_experiment
 from tests.cases import each_case
 from tests.processes import mars
@@ -103,14 +102,6 @@ def test_the_parameter_map_of_a_scenario_function_gets_the_value(folder):
     assert size(map=Map([], walls=[[(0, 1), (1, 1)]])) == (((0, 1), (1, 1)),)
 
 
-def test_in_python_a_map_can_be_given_as_it_is():
-    scenario = Scenario(robots=[mars2d.Robot(pose=(3, 2, 0))])
-    record = mars2d.run(scenario, stop_time=1, options={"map": Map.from_file("room.json")})
-    assert len(record.scenario.obstacles) == 4
-    record = mars2d.run(scenario, stop_time=1, options={"map": "room.json", "map.unit": "m"})
-    assert len(record.scenario.obstacles) == 4
-
-
 @each_case(
     ("options", "said"),
     [
@@ -167,35 +158,3 @@ def test_check_shows_what_was_read_and_draws_it(folder):
         "figure: a.png",
     ]
     assert (folder / "a.png").read_bytes().startswith(b"\x89PNG")
-
-
-@each_case(
-    ("words", "said"),
-    [
-        (["room.json", "--set", "units=cm"], "--set units: no option; did you mean 'unit'?"),
-        (["room.json", "--figure", "a.gif"], "--figure a.gif: expected a name that ends in"),
-        (["lab.py", "--figure", "a.png"], "--figure is for maps: .dxf"),
-        (
-            ["plan.dwg"],
-            "plan.dwg: expected a Python file (.py), a learned law (.onnx), a scenario (.toml)",
-        ),
-        (["rom.json"], "rom.json: there is no such file; did you mean 'room.json'?"),
-        (["plan.dwg"], "; save the drawing as DXF"),
-    ],
-)
-def test_check_says_what_it_can_not_do(words, said, capsys):
-    assert main(["check", *words]) == 2
-    assert said in capsys.readouterr().err
-
-
-@pytest.mark.slow
-@each_case("suffix", ["png", "svg"])
-def test_a_picture_of_a_map_is_the_same_each_time(folder, suffix):
-    from mars2d.addons.maps import read
-    from mars2d.output.figures.map import save_map
-
-    for name in ("a", "b"):
-        save_map(read(folder / "room.json"), folder / f"{name}.{suffix}")
-    first, second = ((folder / f"{name}.{suffix}").read_bytes() for name in ("a", "b"))
-    assert first == second
-    assert len(first) > 1000
