@@ -329,13 +329,6 @@ class Sensor(Stateful):
         """Return the value that a law finds under ``robot.sense``; by default the reading."""
         return reading
 
-    def sign(self, scene: Scene, color: str) -> str:  # noqa: ARG002
-        """Draw a sample of a reading for a legend; return its meaning, by default "": none.
-
-        The sign lies round (0, 0), within 12 points, in points.
-        """
-        return ""
-
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw the field of view and the reading for a robot at `pose` (3,); by default nothing."""
 
@@ -468,10 +461,29 @@ class Sensor(Stateful):
 
 
 class Scanner(Sensor):
-    """The base of sensors that read a team at once: `read` is `read_all` of a team of one."""
+    """The base of sensors that read a team at once: they write `scan` in place of `read`."""
 
     stays: ClassVar[bool] = True
+
+    def scan(self, poses: Float, robots: list[int], world: Surroundings) -> NDArray[Any]:
+        """Return the perfect readings (m, ...) of robots whose sensors are at poses (3, m).
+
+        robots: their indices.
+        """
+        raise NotImplementedError(
+            f"{type(self).__name__} needs a method scan(poses, robots, world)"
+        )
 
     def read(self, robot: Any, world: Surroundings, rng: np.random.Generator) -> Any:
         """Return the perfect reading now."""
         return self.read_all([robot], world, [rng])[0]
+
+    def read_all(
+        self,
+        robots: Sequence[Any],
+        world: Surroundings,
+        rngs: Sequence[np.random.Generator],  # noqa: ARG002
+    ) -> NDArray[Any]:
+        """Return the perfect readings of robots that carry such a sensor, one each."""
+        mine = [robot.index for robot in robots]
+        return self.scan(self.placed(world.pose.take(mine, axis=1)), mine, world)

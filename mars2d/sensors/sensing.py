@@ -227,7 +227,7 @@ def _grouped(devices: Sequence[Device]) -> list[list[Device]]:
 
 def _may_join(device: Device) -> bool:
     """Return whether a device is read together with those whose sensors are equal."""
-    if "read_all" not in vars(type(device.sensor)):
+    if not {"read_all", "scan"} & vars(type(device.sensor)).keys():
         return False
     try:
         hash(device.described)

@@ -121,16 +121,13 @@ def test_a_message_goes_to_all_or_to_those_named_by_index_or_name(to, receivers)
 @each_case(
     ("to", "words"),
     [
-        ("robot11", ["robot.send(to='robot11'): no robot is called so", "did you mean 'robot1'?"]),
-        ("chest", ["no robot is called so; known: robot0, robot1, robot2"]),
-        (3, ["robot.send(to=3): no such robot; expected an index from 0 to 2"]),
-        (-1, ["expected an index from 0 to 2"]),
-        (0, ["robot.send(to=0): robot0 can't send to itself"]),
+        (
+            "robot11",
+            ["robot.send(to='robot11'): there is no robot 'robot11'; did you mean 'robot1"],
+        ),
+        (3, ["robot.send(to=3): there is no robot 3; they are 0 to 2"]),
         ("robot0", ["robot0 can't send to itself"]),
-        ([1, 0], ["robot.send(to=0): robot0 can't send to itself"]),
-        (1.0, ["expected a robot's index or name, a list of these, or None for all in reach"]),
-        (True, ["robot.send(to=True): expected a robot's index"]),
-        ([[1]], ["robot.send(to=[1]): expected a robot's index"]),
+        ([[1]], ["robot.send(to=[[1]]): expected a robot's index"]),
     ],
 )
 def test_a_receiver_that_is_none_is_an_error_of_the_law(to, words):

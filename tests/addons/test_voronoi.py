@@ -7,7 +7,7 @@ import pytest
 import shapely
 
 import mars2d
-from mars2d import Holonomic, InputError, LawError, Robot, Scenario, World
+from mars2d import Holonomic, LawError, Robot, Scenario, World
 from mars2d.addons import Density, Voronoi
 from mars2d.core.scene import Circle, Line, Polygon, Scene
 from mars2d.geometry.voronoi import Tessellation
@@ -88,22 +88,6 @@ def test_the_only_density_of_a_scenario_weighs_the_cells():
         Tessellation(world.position, SQUARE).areas
     )
     assert world.addons.voronoi.now.cost == world.scenario.addons[0].of(world.frame).cost
-
-
-def test_of_several_densities_the_named_one_counts():
-    densities = [Density(slope, name="slope"), Density(lambda x, y: 1 + y, name="rise")]
-    scenario = team(addons=densities)
-    with pytest.raises(InputError, match=r"Voronoi.density is missing: .* slope or rise"):
-        World(scenario)
-    named = scenario.replace(addons=[Voronoi(density="slope"), *densities])
-    masses = World(named).addons.voronoi.now.masses
-    assert masses.tolist() == Tessellation(np.transpose(STARTS), SQUARE, slope).masses.tolist()
-
-
-def test_a_name_that_no_density_has_is_an_error_with_the_nearest_one():
-    scenario = team().replace(addons=[Voronoi(density="hil"), Density(slope, name="hill")])
-    with pytest.raises(InputError, match=r"Voronoi.density = 'hil'.*did you mean 'hill'"):
-        World(scenario)
 
 
 def test_what_a_density_does_wrong_on_the_way_is_an_error_of_its_function():

@@ -106,14 +106,6 @@ def test_wheels_believed_too_far_apart_turn_less():
     assert world.robots[0].sense.odometry == pytest.approx([0, 0, 4.0], abs=1e-9)
 
 
-def test_an_encoder_counts_whole_ticks():
-    robot = Robot(sensors=[Odometry(encoder_step=0.25)])
-    world = followed(robot, [(0.1, 0)] * 60)
-    found = world.record.sensors["odometry"][:, 0, 0]
-    assert set(found.tolist()) == {0, 0.25, 0.5}
-    assert np.abs(found - world.record.pose[:, 0, 0]).max() <= 0.125 + 1e-9
-
-
 # -- odometry: random errors -------------------------------------------------------------------
 
 
@@ -223,9 +215,6 @@ def test_other_drives_drift_by_three_wheels_that_only_measure(drive):
         ({"drift": -1}, r"Odometry.drift = -1"),
         ({"origin": "robot"}, r"Odometry.origin = 'robot': expected one of 'start', 'world'"),
         ({"mount": (0.1, 0, 0)}, r"Odometry.mount = .*: expected \(0, 0, 0\)"),
-        ({"encoder_step": -0.1}, r"Odometry.encoder_step = -0.1"),
-        ({"encoder_step": 5e-324}, r"Odometry.encoder_step = 5e-324: expected 0, or a number >="),
-        ({"encoder_step": 1001}, r"Odometry.encoder_step = 1001: expected 0, or a number >="),
     ],
 )
 def test_odometry_that_can_not_be_is_an_error(fields, message):
