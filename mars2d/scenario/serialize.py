@@ -10,7 +10,7 @@ from mars2d.addons.base import Addon
 from mars2d.addons.communication import Burst, Communication
 from mars2d.addons.map import Map
 from mars2d.bodies.drives.base import Drive
-from mars2d.bodies.drives.unicycle import Unicycle
+from mars2d.bodies.drives.wheeled import Unicycle
 from mars2d.bodies.joints.base import Joint
 from mars2d.bodies.props.base import Prop
 from mars2d.bodies.props.solid import Solid

@@ -9,7 +9,7 @@ from typing import Any
 from mars2d.core.errors import InputError, one_line
 from mars2d.record.recorder import History, Recorder, Unrecorded
 from mars2d.world.simulation import Simulation
-from mars2d.world.uncopied import FORKING
+from mars2d.world.state import FORKING
 
 
 def forked(simulation: Simulation, *, laws: bool, recorder: Recorder | None = None) -> Simulation:

@@ -8,7 +8,7 @@ from math import copysign, cos, degrees, hypot, pi, radians, sin
 from typing import Literal
 
 from mars2d.bodies.props.base import Prop
-from mars2d.bodies.props.box import Box
+from mars2d.bodies.props.rectangles import Box
 from mars2d.core.plane import Outline, Point, edges_of
 from mars2d.core.scene import Scene
 from mars2d.output.raster.theme import LIGHT
