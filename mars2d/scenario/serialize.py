@@ -247,10 +247,8 @@ def _to_description(value: Any, missing: list[str]) -> Any:
             missing.extend(f"joint {joint['type']} of {value['type']}" for joint in value["joints"])
         return _stand_in(value["own"], fields)
     kind = _kinds()[value["type"]]
-    known = kind.__dataclass_fields__  # a record from before may say of others that they are None
-    return kind(
-        **{name: each for name, each in fields.items() if each is not None or name in known}
-    )
+    known = kind.__dataclass_fields__  # a record from before may say of others that they are off
+    return kind(**{name: each for name, each in fields.items() if each or name in known})
 
 
 def _is_function(value: Any) -> bool:
