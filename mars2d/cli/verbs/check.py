@@ -26,7 +26,7 @@ from mars2d.scenario.policy import SUFFIX as LEARNED
 from mars2d.scenario.policy import Policy
 from mars2d.scenario.robot import Robot
 from mars2d.testing.file import trials
-from mars2d.testing.finding import Finding
+from mars2d.testing.subject import Finding
 from mars2d.tournaments.isolation.limits import LIMITS
 from mars2d.tournaments.match import play
 from mars2d.tournaments.schedule import trial_matches
@@ -47,10 +47,11 @@ _FILES = (
     "an experiment, sensors, add-ons, drives, laws (.py or an example's name), a learned law "
     f"({LEARNED}), a scenario (.toml), a record ({', '.join(formats.SUFFIXES)}), or a map"
 )
+_SET = "how a map is read; with --for, a field of the experiment"
 
 ARGUMENTS = {
     "file": option("FILE", _FILES),
-    "--set": option("KEY=VALUE", "how a map is read; with --for, as for run", **MANY),
+    "--set": option("KEY=VALUE", _SET, **MANY),
     "--for": option("GAME", "with a law: play it in this game, with --role", dest="game"),
     "--role": option("ROLE", "with --for: the role that the law plays"),
     "--figure": option("OUT", "draw a map: .png, .pdf, .svg", Path, action=Output),
@@ -180,7 +181,7 @@ def _try_all(module: ModuleType, experiment: Experiment | None, limit: Deadline)
         found = trial.findings()
         findings = [finding for finding in found if finding not in said]
         said |= {*findings}
-        faults = [f for f in findings if f.kind == "wrong" and not f.untried]
+        faults = [finding for finding in findings if not finding.untried]
         hints = len(findings) - len(faults)
         verdict = "not tried to the end" if any(f.untried for f in found) else "sound"
         if faults:
