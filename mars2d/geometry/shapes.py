@@ -62,7 +62,8 @@ class Plate(NamedTuple):
     """The mass properties of a uniform plate, for any mass.
 
     area [m^2]; centroid (x, y) [m]; moment_per_mass [m^2], of inertia about the frame's origin;
-    lever [m], the mean distance of the plate's points from the centroid.
+    lever [m], the mean distance of the plate's points from the centroid: ground friction slows a
+    spinning body with the torque mu m g lever.
     """
 
     area: float
@@ -102,19 +103,6 @@ class Shape(Description):
     def centroid(self) -> Point:
         """Its centre of mass (x, y), metres."""
         return self.plate.centroid
-
-    @property
-    def moment_per_mass(self) -> float:
-        """The moment of inertia about the frame's origin of a plate of 1 kg, m^2."""
-        return self.plate.moment_per_mass
-
-    @property
-    def lever(self) -> float:
-        """The mean distance of its points from the centroid, metres.
-
-        Ground friction slows a spinning body with the torque mu m g lever.
-        """
-        return self.plate.lever
 
     @cached_property
     def bound(self) -> tuple[Point, float]:

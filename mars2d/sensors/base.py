@@ -283,15 +283,12 @@ class Sensor(Stateful):
             if quantity.kind == "flag" and (noise or step):
                 field, given = ("noise", noise) if noise else ("resolution", step)
                 raise wrong(f"{kind}.{field}", given, f"0: {quantity.name} is True or False")
-            if quantity.kind == "distance" and self.outliers and not hasattr(self, "range"):
+            far = {"distance": hasattr(self, "range"), "number": noise > 0}.get(quantity.kind, True)
+            if self.outliers and not far:
                 raise InputError(
                     f"{kind}.outliers = {self.outliers:g}: an outlier of {quantity.name} lies "
-                    f"anywhere within the range, and {kind} has no field range"
-                )
-            if quantity.kind == "number" and self.outliers and not noise:
-                raise InputError(
-                    f"{kind}.outliers = {self.outliers:g}: an outlier of {quantity.name} is ten "
-                    f"times as far off as its noise, which is 0: give {kind}.noise, too"
+                    f"anywhere within the range, or is ten times as far off as the noise: give "
+                    f"{kind} a field range, or {kind}.noise, too"
                 )
 
     # -- methods to override -------------------------------------------------------------------

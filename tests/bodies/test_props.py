@@ -23,7 +23,7 @@ def glided(prop: Prop, t: float) -> list[float]:
     (x, y, theta), (vx, vy, spin) = prop.pose, prop.velocity
     mass, moment = prop.inertia
     brake = prop.ground_friction * GRAVITY
-    slow = prop.ground_friction * mass * GRAVITY * prop.shape.lever / moment
+    slow = prop.ground_friction * mass * GRAVITY * prop.shape.plate.lever / moment
     speed = np.hypot(vx, vy)
     t_slide = min(t, speed / brake) if brake else t
     t_spin = min(t, abs(spin) / slow) if slow else t

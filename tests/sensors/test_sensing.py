@@ -300,7 +300,7 @@ def test_a_sensor_measures_from_its_mount():
         (lambda: RangeFinder(mount=(1, 2, 3, 4)), r"RangeFinder.mount = .*expected a pose"),
         (lambda: Proximity(range=1, noise=0.1), r"Proximity.noise = 0.1: .*True or False"),
         (lambda: Proximity(range=1, resolution=1), r"Proximity.resolution = 1.0: .*True or False"),
-        (lambda: Constant(outliers=0.1), r"Constant.outliers = 0.1: .*give Constant.noise, too"),
+        (lambda: Constant(outliers=0.1), r"Constant.outliers = 0.1: .*or Constant.noise, too"),
         (lambda: SonarRing(sonars=0), r"SonarRing.sonars = 0: expected a whole number from 1"),
         (lambda: SonarRing(cone=7), r"SonarRing.cone = 7: .*<= 2 pi, in radians"),
     ],
