@@ -53,11 +53,8 @@ def test_a_density_that_can_not_be_is_an_error(fields, message):
     ("phi", "message"),
     [
         (lambda x, y: x, r"array of numbers >= 0, .*; it is -[\d.]+ at \(-[\d.]+, -?[\d.]+\)"),
-        (lambda x, y: np.sqrt(x + 5 - 10 * (y > 4)), r"; it is nan at "),
         (lambda x, y: np.where(y > 3, np.inf, 1), "; it is inf at "),
-        (lambda x, y: np.ones(3), r"as many as x has, \(40000,\); it returned shape \(3,\)"),
         (lambda x, y: ["much"], "it returned .'much'."),
-        (lambda x, y: None, "it returned None"),
         (lambda x, y: 0 * x, "Density.function: it is 0 everywhere in the workspace"),
     ],
 )

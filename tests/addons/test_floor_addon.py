@@ -129,17 +129,10 @@ def test_a_floor_of_ones_own_must_return_a_colour(found):
     ("fields", "message"),
     [
         ({"color": "#ffffff80"}, "Floor.color = .*: expected a colour without opacity"),
-        ({"color": "blakc"}, "Floor.color = 'blakc': expected a colour.*did you mean 'black'"),
         ({"patches": [SQUARE]}, r"Floor.patches\[0\] = .*: expected a patch \(outline, colour\)"),
-        ({"patches": SQUARE}, r"Floor.patches\[0\]"),
-        ({"patches": [(SQUARE[:2], "red")]}, r"Floor.patches\[0\]\[0\] = .*a polygon"),
         ({"patches": [(SQUARE, 3)]}, r"Floor.patches\[0\]\[1\] = 3: expected a colour"),
-        ({"patches": "red"}, "Floor.patches = 'red': expected a list of patches"),
         ({"image": "line.jpg", "bounds": (0, 1, 0, 1)}, "Floor.image = 'line.jpg': .*.png"),
-        ({"image": "line.png"}, "Floor.bounds is missing: where the image lies"),
-        ({"bounds": (0, 1, 0, 1)}, "Floor.bounds is given without an image"),
         ({"image": "p.png", "bounds": (1, 0, 0, 1)}, r"Floor.bounds = .*xmin < xmax"),
-        ({"image": "p.png", "bounds": (0, 1, 0)}, r"Floor.bounds = .*: expected \(xmin"),
         ({"image": "p.png", "bounds": (0, 1, 0, nan)}, r"Floor.bounds\[3\] = nan"),
     ],
 )

@@ -152,18 +152,9 @@ def test_contacts_with_others_are_no_captures():
     ("roles", "words"),
     [
         ({"pursuer": ["red"]}, "two roles"),
-        ({"a": [0], "b": [1], "c": [2]}, "two roles"),
-        ({"pursuer": ["red"], "evader": []}, "nobody has this role"),
         ({"pursuer": "red", "evader": ["blue"]}, r"Game.roles\['pursuer'\] = 'red'"),
-        ({"pursuer": [1.5], "evader": ["blue"]}, "names or indices"),
-        ({"pursuer": [True], "evader": ["blue"]}, "names or indices"),
         ({1: ["red"], "evader": ["blue"]}, "two roles"),
-        ([("a", [0]), ("a", [1])], "two roles"),
-        (7, "two roles"),
-        ({"pursuer": ["rde"], "evader": ["blue"]}, "no robot 'rde'; did you mean 'red'"),
         ({"pursuer": [5], "evader": ["blue"]}, "no robot 5; they are 0 to 1"),
-        ({"pursuer": [-1], "evader": ["blue"]}, "no robot -1"),
-        ({"pursuer": ["red"], "evader": [0]}, "red is pursuer and evader"),
         ({"pursuer": ["red", 0], "evader": ["blue"]}, "red stands twice as pursuer"),
     ],
 )

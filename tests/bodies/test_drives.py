@@ -328,15 +328,9 @@ def test_robots_move_by_what_was_commanded_their_dead_time_and_the_delay_ago(dea
     ("kind", "field", "values"),
     [
         (Differential, "wheel_radius", [0, -0.1, 1e9]),
-        (Differential, "wheel_semiaxis", [0, -0.1, 1e-300]),
         (Differential, "command", ["wheel", "", None, 3]),
-        (Unicycle, "wheel_semiaxis", [0]),
-        (Car, "wheelbase", [0, -0.2, 1e-300]),
         (Car, "max_steering", [0, -0.3, pi / 2, 2]),
-        (Car, "max_steering_rate", [0, -1]),
-        (Holonomic, "max_acceleration", [0, -1, 1e300]),
         (Unicycle, "noise", [-0.1, 1.5]),
-        (Car, "dead_time", [-0.1, 1e300]),
         (Crab, "max_linear_speed", [0, -1]),
     ],
 )

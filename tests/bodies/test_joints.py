@@ -232,14 +232,10 @@ def test_a_puck_on_a_hinge_is_held_by_floor_and_hinge_at_once():
     ("joint", "said"),
     [
         (lambda: Rope(a="robot0", b="ball0", length=-1), "Rope.length = -1"),
-        (lambda: Rope(a="robot0", b="ball0", length=0.5), "start 1 m apart"),
         (lambda: Rod(a="robot0", b="ball0", length=2), "start 1 m apart"),
-        (lambda: Hinge(a="robot0", b="ball0"), "a hinge is one point"),
         (lambda: Rope(a="robot0", b="robot0"), "another body than a"),
         (lambda: Rope(a="robot0", b="bal0"), "did you mean 'ball0'"),
-        (lambda: Spring(a="robot0", b="ball0", stiffness=0), "Spring.stiffness = 0"),
         (lambda: Spring(a="robot0", b="ball0", damping=float("nan")), "Spring.damping = nan"),
-        (lambda: Hinge(a="ball0", anchor_b=(1, 0), limits=(1, 0)), "Hinge.limits"),
         (lambda: Rope(a="robot0", b="ball0", anchor_a=(1, 0)), "use a Hinge"),
     ],
 )

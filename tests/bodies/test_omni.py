@@ -102,7 +102,6 @@ def test_teams_have_the_rows_of_the_drive_with_most_inputs(tmp_path):
     ("make", "message"),
     [
         (lambda: Omni(wheels=2), "Omni.wheels = 2: expected"),
-        (lambda: Omni(side_grip=0.5), "Omni.side_grip = 0.5: expected None"),
         (lambda: Omni(no_load_speed=1.0), "Omni.no_load_speed = 1.0: expected None"),
         (type("Bare", (Drive,), {"inputs": ()}), "Bare.inputs = .*: expected a tuple"),
     ],

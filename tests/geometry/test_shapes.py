@@ -151,13 +151,10 @@ def test_vertices_on_a_straight_side_are_drawn_but_do_not_reach_the_engine():
     ("outline", "problem"),
     [
         ([(0, 0), (1, 1), (1, 0), (0, 1)], "crosses or touches itself"),
-        ([(0, 0), (1, 0), (1, 0), (0, 1)], "vertices 1 and 2 are the same"),
         ([(0, 0), (1, 0), (2, 0)], "lie on one line"),
         ([(0, 0), (1, 0)], "at least 3"),
-        ([(0, 0), (1, NAN), (1, 1)], "finite"),
         ("square", "polygon's vertices"),
         (_star(40, 0.9), f"has 80 vertices: expected at most {MAX_VERTICES}"),
-        ([(0, 0), (100, 0), (100, 9e-5), (0, 9e-5)], "one is 9e-05 m thin"),
         ([(0, 0), (1, 0), (0.5, 9e-5)], "thickness"),
     ],
 )

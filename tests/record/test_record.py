@@ -296,12 +296,6 @@ class Tow(Rope):
     length: float | None = 0.9
 
 
-class Slab(Polygon):
-    """A shape of the user's own."""
-
-    outline = ((-0.1, -0.1), (0.1, -0.1), (0.1, 0.1), (-0.1, 0.1))
-
-
 def test_for_a_prop_of_the_users_own_a_solid_stands_in_that_moves_alike(tmp_path):
     robot = Robot(controller=lambda robot: (0.3, 0.1))
     trolley = Trolley(pose=(0.5, 0.05, 1.0), velocity=(0, 0.2, 0), name="trolley")
@@ -323,8 +317,6 @@ def test_for_a_prop_of_the_users_own_a_solid_stands_in_that_moves_alike(tmp_path
     [
         ({"props": [Trap(pose=(1, 0))]}, ("prop Trap", "joint Rope of Trap")),
         ({"props": [Box(pose=(0.8, 0))], "joints": [Tow(a="robot0", b="box0")]}, ("joint Tow",)),
-        ({"robots": [Robot(shape=Slab())]}, ("shape Slab",)),
-        ({"props": [Solid(Slab(), pose=(1, 0))]}, ("shape Slab",)),
     ],
 )
 def test_without_joints_or_shapes_of_the_users_own_a_record_is_not_run_again(

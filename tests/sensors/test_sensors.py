@@ -142,14 +142,9 @@ def test_a_reading_is_a_number_a_truth_value_or_an_array(value, shape):
     ("first", "second"),
     [
         (np.zeros(3), np.zeros(4)),
-        (np.zeros(3), 1.0),
         (np.zeros(3), np.zeros(1)),
-        (1.0, np.zeros(1)),
         (False, 0.7),
-        (1.0, True),
-        (1.0, None),
         (1.0, "2"),
-        (1.0, 1j),
         (np.zeros((2, 2)), np.zeros((2, 1))),
     ],
 )

@@ -210,10 +210,7 @@ def test_other_drives_drift_by_three_wheels_that_only_measure(drive):
     ("fields", "message"),
     [
         ({"wheel_scale": 1.01}, r"Odometry.wheel_scale = 1.01: expected two scales"),
-        ({"wheel_scale": (1, 0)}, r"Odometry.wheel_scale = \(1, 0\): expected two scales"),
         ({"wheel_scale": (1, float("nan"))}, r"Odometry.wheel_scale\[1\]"),
-        ({"drift": -1}, r"Odometry.drift = -1"),
-        ({"origin": "robot"}, r"Odometry.origin = 'robot': expected one of 'start', 'world'"),
         ({"mount": (0.1, 0, 0)}, r"Odometry.mount = .*: expected \(0, 0, 0\)"),
     ],
 )
@@ -284,8 +281,6 @@ def test_the_bias_is_constant_and_its_walk_grows_with_the_root_of_time():
     ("fields", "message"),
     [
         ({"bias": 0.1}, r"Imu.bias = 0.1: expected three numbers"),
-        ({"bias": (0, 0)}, r"Imu.bias = \(0, 0\): expected three numbers"),
-        ({"bias_walk": (0, -1, 0)}, r"Imu.bias_walk = \(0, -1, 0\): expected three numbers >= 0"),
         ({"bias": (0, 0, "fast")}, r"Imu.bias\[2\] = 'fast'"),
     ],
 )

@@ -220,9 +220,3 @@ def test_what_can_not_be_copied_is_named():
     law.lock = threading.Lock()
     with pytest.raises(InputError, match=r"the law \w+ can't be copied: .*fork\(laws=False\)"):
         World(Scenario(robots=[Robot(controller=law)])).fork()
-
-
-def test_arrays_of_a_fork_can_not_be_written():
-    fork = stepped(World(remembering())).fork()
-    for array in (fork.pose, fork.command, fork.contacts, fork.prop_pose, fork.effort):
-        assert not array.flags.writeable

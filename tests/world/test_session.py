@@ -89,10 +89,8 @@ def test_ctrl_c_between_two_steps_keeps_them(tmp_path):
     ("arguments", "words"),
     [
         ({"experiment": 3}, "expected a file"),
-        ({"experiment": SQUARE, "speed": "fast"}, "speed = 'fast'"),
         ({"experiment": SQUARE, "seed": 1.5}, "seed = 1.5"),
         ({"experiment": SQUARE, "control": 7}, "control = 7"),
-        ({"experiment": SQUARE, "options": {"titel": "x"}}, "did you mean 'title'?"),
         ({"experiment": SQUARE, "stop_time": -1}, "Scenario.stop_time = -1"),
     ],
 )
@@ -170,14 +168,10 @@ def test_a_law_may_have_another_name_and_import_what_lies_beside_it(duel):
     ("text", "where", "words"),
     [
         ("def contrl(robot):\n    pass\n", "red.py", "no law 'control'; did you mean 'contrl'?"),
-        ("def attack(robot):\n    pass\n", "red.py", "no law 'control'; known: attack"),
         ("x = 1\n", "red.py", "has no law 'control'"),
-        ("control = 3\n", "red.py", "control = 3: expected a function of one argument, the robot"),
         ("def control():\n    pass\n", "red.py", "exactly one argument, the robot"),
         ("x = 1\nimport nmpy\n", "red.py, line 2", "ModuleNotFoundError"),
-        ("def control(robot:\n    pass\n", "red.py, line 1", "never closed"),
         ("def control(robot):\n    return robot.posee\n", "red.py, line 2", "'posee'"),
-        ("def control(robot):\n    yield 1\n", "red.py, line 1", "control returned 1"),
         ("def control(robot):\n    pass\n", "red.py, line 1", "control returned nothing"),
     ],
 )
@@ -196,12 +190,8 @@ def test_a_mistake_in_a_laws_file_points_into_it(duel, text, where, words):
             "rde.py",
             "rde.py: there is no such file beside duel.py or in the current folder;",
         ),
-        ("rde.py", "did you mean 'red.py'?"),
         ("red", "did you mean 'red.py'?"),
-        ("players/foward.py", "did you mean 'players/forward.py'?"),
-        ("players", "players: a folder; expected a law"),
         ("red.txt", "red.txt: expected a law, a file that ends in .py or .onnx"),
-        ("/nowhere/at/all/red.py", "/nowhere/at/all/red.py: there is no such file"),
         (3, "load_law(path) = 3: expected the name of a law's file"),
     ],
 )

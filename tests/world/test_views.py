@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d import Addon, Holonomic, LawError, Robot, Scenario, Sensor, Within, World
+from mars2d import Addon, Holonomic, LawError, Robot, Scenario, Sensor, World
 from mars2d.addons import Communication
 from mars2d.world.team_view import TeamPositionsView
 from mars2d.world.views import VIEWS, Neighbour, PropView, RobotView
@@ -234,24 +234,6 @@ def test_a_neighbour_that_is_kept_moves_on():
     robots = [Robot(controller=law), away]
     mars2d.run(Scenario(robots=robots, stop_time=1, sampling_time=0.5))
     assert seen == pytest.approx([1, 1.25, 1.5])
-
-
-def test_a_neighbour_that_has_gone_is_seen_no_more():
-    def law(robot):
-        friend = robot.neighbours[0]
-        while True:
-            yield 0.0 * friend.position[0], 0
-
-    away = Robot(pose=(1, 0, 0), controller=lambda robot: (0.5, 0))
-    robots = [Robot(controller=law, sees="positions"), away]
-    scenario = Scenario(robots=robots, stop_time=9, sampling_time=0.5, neighbours=Within(1.6))
-    with pytest.raises(LawError) as raised:
-        mars2d.run(scenario)
-    line = law.__code__.co_firstlineno + 3
-    assert untimed(raised.value) == (
-        f"test_views.py, line {line}: robot1 is no neighbour any more: ask robot.neighbours again"
-    )
-    assert raised.value.record.pose[-1, 0, 1] == pytest.approx(1.5)  # seen there, at 1.75 m not
 
 
 # -- what does not depend on what laws see ----------------------------------------------------

@@ -8,7 +8,7 @@ import pytest
 import mars2d
 from mars2d import Holonomic, InputError, LawError, Robot, Scenario, World
 from mars2d.addons import Addon, Map
-from mars2d.bodies.props import Ball, Box, Puck
+from mars2d.bodies.props import Ball, Box
 from mars2d.sensors import Sensor
 from tests.cases import each_case
 
@@ -171,21 +171,6 @@ def test_what_was_recorded_until_an_error_is_kept(what):
     assert "test_world.py, line" in str(raised.value)
 
 
-def test_an_error_in_a_sensor_or_addon_keeps_the_record_too():
-    class Frail(Sensor):
-        def read(self, robot, world, rng):
-            return 1 / (world.time < 0.25)
-
-    class Weak(Addon):
-        def on_step(self, world):
-            _ = 1 / (world.time < 0.25)
-
-    for scenario in (Scenario(robots=[Robot(sensors=[Frail()])]), Scenario(addons=[Weak()])):
-        with pytest.raises(LawError, match="ZeroDivisionError") as raised:
-            mars2d.run(scenario)
-        assert len(raised.value.record) == 3
-
-
 # -- what a world tells ---------------------------------------------------------------------
 
 
@@ -234,16 +219,6 @@ def test_the_frame_shows_the_readings_of_this_instant_once_it_is_observed():
     assert world.record.sensors["clock"].ravel().tolist() == [0.0, 0.1]
 
 
-def test_worlds_of_one_scenario_share_nothing():
-    scenario = Scenario(robots=[Robot(), Robot(pose=(0.4, 0, 0))])
-    first, second = World(scenario), World(scenario)
-    for _ in range(5):
-        first.step([[0.4, 0], [0, 0]])
-    assert second.pose.tolist() == scenario.initial_pose.tolist()
-    assert second.iteration == 0
-    assert len(second.record) == 0
-
-
 # -- props and effort -----------------------------------------------------------------------------
 
 
@@ -280,16 +255,3 @@ def test_effort_is_none_in_free_motion_and_all_of_it_against_a_wall():
     effort = world.record.effort
     assert effort[:10].max() == 0
     assert effort[-1] == pytest.approx([1])
-
-
-def test_a_frame_shows_props_contacts_and_efforts_of_this_instant():
-    world = World(Scenario(robots=[Robot()], props=[Puck(pose=(0.3, 0), ground_friction=0.4)]))
-    assert world.frame.prop_pose.tolist() == [[0.3], [0], [0]]
-    assert len(world.frame.contacts) == len(world.frame.contact_log()) == 0
-    for _ in range(9):
-        world.step([[0.2], [0]])
-    frame = world.frame
-    assert np.array_equal(frame.prop_pose, world.prop_pose)
-    assert frame.contacts.tobytes() == world.contacts.tobytes()
-    assert frame.effort.tolist() == world.effort.tolist()
-    assert len(frame.contact_log()) == len(world.record.contacts) > len(frame.contacts) == 1
