@@ -24,7 +24,6 @@ from mars2d.record.message import (
 )
 from mars2d.scenario.neighbours import Everyone, within
 from mars2d.world.state import State
-from mars2d.world.surroundings import Around
 
 Int = NDArray[np.int64]
 
@@ -67,9 +66,9 @@ class Channel:
     the order in which laws are asked.
     """
 
-    def __init__(self, world: State, around: Around, model: Communication) -> None:
-        """Take the world, its surroundings, and the live add-on, whose random stream is used."""
-        self._world, self._around, self._model = world, around, model
+    def __init__(self, world: State, model: Communication) -> None:
+        """Take the world, and the live add-on, whose random stream is used."""
+        self._world, self._model = world, model
         self._names = [str(robot.name) for robot in world.scenario.robots]
         self._sent: list[_Sent] = []
         self._free: dict[int, float] = defaultdict(float)  # when a sender has sent all, s
@@ -186,10 +185,6 @@ class Channel:
         x, y = world.pose[:2]
         if model.range is not None:
             reached &= within(x[others] - x[sender], y[others] - y[sender], model.range)
-        if model.line_of_sight and reached.any():
-            near = np.flatnonzero(reached)
-            start, there = (float(x[sender]), float(y[sender])), world.pose[:2, others[near]].T
-            reached[near] = ~self._around.hidden(start, there, others[near], sender)
         return reached
 
     def _hearers_of(self, sender: int) -> Int:

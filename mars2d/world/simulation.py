@@ -99,7 +99,7 @@ class Simulation(State):
         self._take_scenario({}, control)
         live = vars(self.addons).values()
         talk = next((addon for addon in live if isinstance(addon, Communication)), None)
-        self._channel = None if talk is None else Channel(self, self.surroundings, talk)
+        self._channel = None if talk is None else Channel(self, talk)
         self._hooks.call("on_start", world)
         around = self.surroundings  # sensors know all of the world, whatever the laws see
         self.sensing = Sensing(

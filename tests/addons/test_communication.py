@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 import mars2d
 from mars2d import Holonomic, InputError, LawError, Record, Robot, Scenario, World
-from mars2d.addons import Burst, Communication, Map
+from mars2d.addons import Burst, Communication
 from mars2d.core.scene import Arrow, Line
 from mars2d.output.layers.messages import messages
 from mars2d.record.message import (
@@ -221,30 +221,6 @@ def test_who_is_in_reach_is_judged_when_the_message_is_sent():
     assert heard(world)[1] == ["near"]
     stand(world)
     assert heard(world)[1] == []
-
-
-def test_a_wall_a_prop_or_a_robot_in_between_breaks_the_line_of_sight():
-    blocked = {
-        "wall": {"addons": [Map([[(0.5, -1), (0.5, 1)]])]},
-        "prop": {"props": [mars2d.bodies.props.Box(pose=(0.5, 0, 0), length=0.1, width=0.1)]},
-        "robot": {"third": Robot(pose=(0.5, 0, 0), diameter=0.2)},
-        "nothing": {"addons": [Map([[(0.5, 0.3), (0.5, 1)]])]},
-    }
-    for what, fields in blocked.items():
-        pair = [
-            Robot(pose=(0, 0, 0)),
-            Robot(pose=(1, 0, 0)),
-            *([fields["third"]] if "third" in fields else []),
-        ]
-        for sight in (True, False):
-            talk = Communication(line_of_sight=sight)
-            others = {"props": fields.get("props", [])}
-            scene = team(robots=pair, addons=[*fields.get("addons", []), talk], **others)
-            world = World(scene)
-            world.robots[0].send("x", to=1)
-            stand(world)
-            through = not sight or what == "nothing"
-            assert heard(world)[1] == (["x"] if through else []), what
 
 
 @each_case("seed", range(4))

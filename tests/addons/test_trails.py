@@ -61,19 +61,10 @@ def test_a_trail_fades_out_without_gaps():
         assert before.points[-1].tolist() == after.points[0].tolist()
 
 
-def test_only_the_robots_that_are_named_have_one_in_their_colours():
-    record = record_of(Trails(robots=["robot1"], width=4.0))
-    drawn = lines(record.frame(50))
-    assert drawn[-1].stroke == "#db7626"  # 85 % of #d55e00, over white
-    assert {line.width for line in drawn} == {4.0}
-    assert all(np.all(line.points[:, 1] == 1.0) for line in drawn)
-
-
 @each_case(
     ("fields", "message"),
     [
         ({"duration": 0}, r"Trails.duration = 0: expected a number > 0"),
-        ({"robots": []}, r"Trails.robots = \[\]: expected a list of robots' names"),
         ({"width": -1}, r"Trails.width = -1: expected a number > 0"),
     ],
 )
