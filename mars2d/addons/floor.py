@@ -68,7 +68,7 @@ class Floor(Addon):
     image: str | None = entry(default=None, check=image_file, doc="a PNG file")
     bounds: Bounds | None = entry(
         default=None, check=image_bounds, unit="m",
-        doc="the area of the image: (xmin, xmax, ymin, ymax)",
+        doc="the area of the image",
     )  # fmt: skip
     patches: Sequence[tuple[Outline, str]] = entry(
         default=(), check=_patches, unit="m", doc="polygons and their colours: (outline, colour)"

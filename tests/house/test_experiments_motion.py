@@ -129,7 +129,7 @@ def test_a_neighbour_is_in_view_when_it_is_near_or_ahead():
 # -- formation ----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("options", [{}, {"shape": "circle"}, {"shape": "row", "gain": 0.3}])
+@pytest.mark.parametrize("options", [{"shape": "circle"}, {"shape": "row", "gain": 0.3}])
 def test_what_is_off_the_formation_fades_at_the_rate_of_the_second_eigenvalue(options):
     record, checks = predicted("formation", **options)
     (check,) = checks.values()
