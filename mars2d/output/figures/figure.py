@@ -33,7 +33,6 @@ from mars2d.output.layers.arrows import Sign, has_cut
 from mars2d.output.layers.forces import forces
 from mars2d.output.layers.impulses import impulses
 from mars2d.output.layers.legend import legends
-from mars2d.output.layers.placement import AVOIDED, placed_names
 from mars2d.output.layers.table import Layers
 from mars2d.output.layers.trails import trails
 from mars2d.output.layers.velocities import velocities
@@ -333,7 +332,6 @@ def paint_frame(ax: Axes, now: Frame, look: Style = SCREEN, layers: Layers | Non
     layers = layers or layers_of(scenario)
     _set_ticks(ax, TICK_SPACING * look.small / SCREEN.small)  # again: the layout is known now
     scales, words = _scales(ax, scenario, look), sign_scale(look)
-    arrows: list[Shape] = []
     level = WORKSPACE  # the grid lies between this and the level of all later layers
     for layer in layers.seen(scenario.animation):
         if layer.name in ("edge", "obstacles"):
@@ -341,12 +339,7 @@ def paint_frame(ax: Axes, now: Frame, look: Style = SCREEN, layers: Layers | Non
         if layer.shapes is None:
             continue
         shapes = layer.shapes(now).shapes
-        if layer.name in AVOIDED:
-            arrows += shapes
-        if layer.name == "names":
-            part, point = (*ax.get_xlim(), *ax.get_ylim()), words / points_per_metre(ax)
-            shapes = placed_names(Scene(shapes), now, point, part, arrows).shapes
-        elif layer.name == "workspace":  # its edge is a layer of its own
+        if layer.name == "workspace":  # its edge is a layer of its own
             shapes = [
                 replace(shape, stroke=None) if isinstance(shape, Polygon) else shape
                 for shape in shapes

@@ -224,9 +224,9 @@ def draw_name(scene: Scene, scenario: Scenario, body: int, pose: Float) -> None:
     """Write the name of a body above it, at a pose (3,)."""
     bodies = scenario.bodies
     crowd, name = len(bodies) > MANY_BODIES, str(bodies[body].name)
-    middle, radius = bounding_circle(bodies[body].shape, pose)
     if crowd and name == f"robot{body}":
         name = str(body)
-    x, y = middle.tolist()
+    x, y, _ = pose.tolist()
     size = CROWD_SIZE if crowd else NAME_SIZE
-    scene.shapes.append(Text((x, y + radius), name, INK, size, "above", NAME_HALO))
+    above = y + bodies[body].shape.reach
+    scene.shapes.append(Text((x, above), name, INK, size, "above", NAME_HALO))

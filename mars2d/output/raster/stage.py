@@ -15,7 +15,6 @@ from mars2d.core.scene import Shape
 from mars2d.output.layers.addons import sensors
 from mars2d.output.layers.bodies import starts
 from mars2d.output.layers.legend import legends
-from mars2d.output.layers.placement import AVOIDED, placed_names
 from mars2d.output.layers.table import FIRST_BODIES, LAST_BODIES, LAYERS, Layers, standing
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.grid import Bounds, draw_grid, labels
@@ -143,7 +142,6 @@ class Stage:
         self._made_of: list[object] = []  # what the canvas shows
         self._sensed: pygame.Surface | None = None
         self._sensed_of: tuple[object, ...] = ()
-        self._places: dict[int, int] = {}  # of the names in the last picture
         self._legend = pygame.Surface((0, 0)), (0, 0)
         self._legend_of: tuple[object, ...] = ()
 
@@ -159,13 +157,12 @@ class Stage:
         beneath: Sequence[Shape] = (),
         marks: Sequence[Shape] = (),
         hurried: bool = False,
-        selected: int | None = None,
     ) -> None:
         """Draw a frame on the part `plot` of a surface, all of it by default.
 
         free: the parts of the plot on which nothing else will be drawn, where legends go, the
         largest first; by default all of it. beneath, marks: shapes to draw below and above the
-        bodies. selected: a body whose name goes before others, an index of `Scenario.bodies`.
+        bodies.
         hurried: whether the camera is moving. If the layers that stand still took long to draw, the
         last picture of them is then enlarged or shifted for a quarter of a second.
         """
@@ -175,7 +172,7 @@ class Stage:
         shot = _Shot(surface, frame, camera, layers, plot)
         canvas = self._canvas_for(shot, hurried)
         (self._spread if canvas.shows(camera, plot) else self._enlarge)(shot, canvas)
-        self._paint_above(shot, beneath, marks, selected)
+        self._paint_above(shot, beneath, marks)
         if layers.grid:
             bounds = grid_bounds(frame.scenario, camera, surface.get_size())
             surface.fblits(labels(plot, camera, bounds, self.painter))
@@ -211,27 +208,15 @@ class Stage:
         )
         return [side.clip(room) for side in sides if min(side.size) > 0]
 
-    def _paint_above(
-        self, shot: _Shot, beneath: Sequence[Shape], marks: Sequence[Shape], selected: int | None
-    ) -> None:
+    def _paint_above(self, shot: _Shot, beneath: Sequence[Shape], marks: Sequence[Shape]) -> None:
         """Draw the layers above the kept ones, with `beneath` and `marks` around the bodies."""
-        surface, frame, camera, layers, plot = shot
+        surface, frame, camera, layers, _ = shot
         seen = {layer.name for layer in layers.seen(frame.scenario.animation)}
-        arrows = [*marks]
         for layer in LAYERS[_place("sensors") + 1 :]:
             if layer.name == FIRST_BODIES:
                 self.painter.paint(surface, beneath, camera)
             if layer.name in seen and layer.shapes is not None:
-                scene = layer.shapes(frame)
-                if layer.name in AVOIDED:
-                    arrows += scene.shapes
-                if layer.name == "names":
-                    (xmin, ymin), (xmax, ymax) = camera.to_world([plot.bottomleft, plot.topright])
-                    bounds, point = (xmin, xmax, ymin, ymax), self.painter.ui / camera.scale
-                    scene = placed_names(
-                        scene, frame, point, bounds, arrows, selected, self._places
-                    )
-                self.painter.paint(surface, scene.shapes, camera)
+                self.painter.paint(surface, layer.shapes(frame).shapes, camera)
             if layer.name == LAST_BODIES:
                 self.painter.paint(surface, marks, camera)
 

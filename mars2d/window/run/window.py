@@ -330,7 +330,6 @@ class Window(PlayerWindow):
             beneath=others,
             marks=marks,
             hurried=self.viewpoint.hurried,
-            selected=self.selected,
         )
         self._draw_dock(surface, frame)
         if notes and not self.saver.filming:
