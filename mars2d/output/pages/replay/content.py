@@ -307,9 +307,7 @@ class _Content:
         self._fit(layer.title.lower() if seen else "", room, packed, stride)
         return header
 
-    def _fit(
-        self, what: str, room: int, pack: Callable[[int], Columns], stride: int = 1
-    ) -> None:
+    def _fit(self, what: str, room: int, pack: Callable[[int], Columns], stride: int = 1) -> None:
         """Add columns of at most `room` bytes, and a note.
 
         what: for the note; "" for none. pack: returns the columns of one row in so many of those

@@ -142,9 +142,7 @@ class Book:
         return self.orders.setdefault(tuple(listed), len(self.orders))
 
 
-def pack(
-    name: str, drawings: Sequence[Drawing], step: float
-) -> tuple[Columns, dict[str, Any]]:
+def pack(name: str, drawings: Sequence[Drawing], step: float) -> tuple[Columns, dict[str, Any]]:
     """Return drawings as columns, and their header; step: metres.
 
     A shape is written as the difference from the last one at its place with as many numbers.
