@@ -150,7 +150,7 @@ class Record(Rows):
         """Write the record to a file and return its path; the ending says in which format.
 
         ``.npz`` numpy, ``.csv`` a long table, ``.mcap`` a log for Foxglove: `load` reads these
-        again, with the same digest. ``.mat`` for Matlab and Octave, ``.nc`` netCDF: exports. Raises
+        again, with the same digest. ``.mat`` for Matlab and Octave: an export. Raises
         InputError where it can't be written, MissingExtraError where a library is missing.
         """
         from mars2d.output import formats

@@ -34,7 +34,7 @@ FOXGLOVE = 8765
 LONG = 20.0
 """Seconds of the engine's work after which it is worth while to have it compiled."""
 
-_SAVED = "save all data: .npz, .csv, or .mcap, which is written during the run; .mat, .nc"
+_SAVED = "save all data: .npz, .csv, or .mcap, which is written during the run; .mat"
 _SERVED = f"serve the run to Foxglove on this machine while it goes on, at port {FOXGLOVE}"
 _DRIVEN = "a robot to drive by hand: its name or index, or a role; may be given twice"
 

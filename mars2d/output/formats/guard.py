@@ -26,7 +26,7 @@ def reading(path: Path) -> Iterator[None]:
         raise InputError(f"{path}: there is not enough memory to read it") from error
     except OSError as error:
         raise InputError(f"{path}: can't be read: {error.strerror or error}") from error
-    except Exception as error:  # zip, zlib, numpy, scipy, json and protobuf raise their own
+    except Exception as error:  # zip, zlib, numpy, json and mcap raise their own
         raise InputError(f"{path}: not a record of MARS2D, or damaged") from error
 
 
