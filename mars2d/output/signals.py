@@ -62,8 +62,6 @@ class Signal:
     bodies: tuple[int, ...]
     held: str = ""
     bearings: Float | None = None
-    nearest: bool = False
-    """Whether an image that is thinned keeps the smallest numbers, as for distances."""
     wraps: bool = False
     """Whether the values are angles, which jump from pi to -pi."""
     curves: tuple[str, ...] = ()
@@ -319,8 +317,7 @@ def _is_color(quantities: Sequence[Quantity]) -> bool:
 
 def _of_kind(signal: Signal, quantity: Quantity) -> Signal:
     """Return a signal with the unit of a quantity, and drawn as its kind requires."""
-    kind = quantity.kind
-    return replace(signal, unit=quantity.unit, nearest=kind == "distance", wraps=kind == "angle")
+    return replace(signal, unit=quantity.unit, wraps=quantity.kind == "angle")
 
 
 def _indexed(signal: Signal, index: int) -> Signal:

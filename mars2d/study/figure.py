@@ -15,6 +15,7 @@ from mars2d.output.figures.figure import new_figure, save_drawing, show_in_noteb
 from mars2d.output.figures.labels import shortened
 from mars2d.output.figures.legend import Entry
 from mars2d.output.figures.panels import (
+    PANEL,
     caption,
     checked_axes,
     letters_in,
@@ -22,7 +23,7 @@ from mars2d.output.figures.panels import (
     say,
     set_span,
 )
-from mars2d.output.figures.style import DASHES, Style, style_of
+from mars2d.output.figures.style import DASHES, MUTED, SMALL, curve_color, points
 from mars2d.study.axis import dress, name_axis, scale_to_100
 from mars2d.study.estimates import Estimate, estimates
 from mars2d.study.layout import Layout, layout_of
@@ -55,7 +56,6 @@ def plot_study(
     *,
     confidence: float = 0.95,
     x: str | None = None,
-    style: str | Style = "screen",
 ) -> list[Axes]:
     """Draw the measures of a study over a setting, one panel a mean or share; return the axes.
 
@@ -63,34 +63,33 @@ def plot_study(
     only some runs, because others have no number, is hollow; the panel below shows their share.
     x: the setting along the axis, by default the first with several numbers; each combination of
     the others is a line. axes: one for each panel, row by row; by default those of a new figure.
-    style: as in `Record.plot`. Raises InputError if there is nothing to draw, or too much.
+    Raises InputError if there is nothing to draw, or too much.
     """
-    look, confidence = style_of(style), confident(confidence)
+    confidence = confident(confidence)
     shown = estimates(table, both=False)
     if not table.results or not shown:
         what = "measures" if table.results else "runs"
         raise InputError(f"figure: the study of {table.experiment} has no {what}")
     layout = layout_of(table, x)
-    drawing = _Drawing(table, layout, look, confidence)
-    with look.fonts():
-        grid = _grid(axes, shown, len(layout.columns), look)
-        for ax in grid.ravel():
-            dress(ax, layout, look)
-        for row, estimate in zip(grid, shown, strict=True):
-            drawing.panels(row, estimate)
-            caption(row[0], estimate.label, "%" if estimate.share else estimate.unit, look)
-        for k, ax in enumerate(grid.ravel()):
-            if axes is not None or k >= grid.size - len(layout.columns):
-                name_axis(ax, table, layout, k % len(layout.columns), look)
-            else:
-                ax.tick_params(labelbottom=False)
-            ax.tick_params(labelleft=axes is not None or not k % len(layout.columns))
-        kinds = " and ".join(sorted({"shares" if each.share else "means" for each in shown}))
-        title = f"{table.experiment}: {kinds} with {100 * confidence:.4g} % intervals"
-        if table.failed:
-            title += f", {counted(len(table.failed), 'run')} failed"
-        above = _above(grid, own=axes is None)
-        name_curves(above, title, drawing.entries(above, shown), look)
+    drawing = _Drawing(table, layout, confidence)
+    grid = _grid(axes, shown, len(layout.columns))
+    for ax in grid.ravel():
+        dress(ax, layout)
+    for row, estimate in zip(grid, shown, strict=True):
+        drawing.panels(row, estimate)
+        caption(row[0], estimate.label, "%" if estimate.share else estimate.unit)
+    for k, ax in enumerate(grid.ravel()):
+        if axes is not None or k >= grid.size - len(layout.columns):
+            name_axis(ax, table, layout, k % len(layout.columns))
+        else:
+            ax.tick_params(labelbottom=False)
+        ax.tick_params(labelleft=axes is not None or not k % len(layout.columns))
+    kinds = " and ".join(sorted({"shares" if each.share else "means" for each in shown}))
+    title = f"{table.experiment}: {kinds} with {100 * confidence:.4g} % intervals"
+    if table.failed:
+        title += f", {counted(len(table.failed), 'run')} failed"
+    above = _above(grid, own=axes is None)
+    name_curves(above, title, drawing.entries(above, shown))
     if axes is None:
         show_in_notebooks(*grid.ravel())
     return list(grid.ravel())
@@ -101,27 +100,23 @@ def save_study_figure(
     path: str | Path,
     *,
     confidence: float = 0.95,
-    style: str | Style = "screen",
 ) -> Path:
     """Save the figure of `plot_study` as ``.png``, ``.pdf`` or ``.svg`` and return its path.
 
     The same table gives the same bytes. Raises InputError as `plot_study` does, for any other
     suffix, and if the file can't be written.
     """
-    look = style_of(style)
 
     def draw() -> Any:
-        return plot_study(table, confidence=confidence, style=style)[0].figure
+        return plot_study(table, confidence=confidence)[0].figure
 
-    return save_drawing(draw, path, trim=look.trim, dpi=look.dpi)
+    return save_drawing(draw, path)
 
 
 # -- panels ----------------------------------------------------------------------------------------
 
 
-def _grid(
-    axes: Sequence[Axes] | None, shown: Sequence[Estimate], wide: int, look: Style
-) -> NDArray[Any]:
+def _grid(axes: Sequence[Axes] | None, shown: Sequence[Estimate], wide: int) -> NDArray[Any]:
     """Return the panels' axes, (estimates, columns): those given, or those of a new figure."""
     tall = len(shown)
     if axes is not None:
@@ -129,9 +124,9 @@ def _grid(
         beside = f", {wide} side by side" if wide > 1 else ""
         given = checked_axes(axes, tall * wide, f"({names}{beside})")
         return np.array(given, dtype=object).reshape(tall, wide)
-    width = (look.single if wide == 1 else look.full) or (7.0 if wide == 1 else 2.5 * wide + 2.5)
-    height = tall * PANEL_HEIGHT * look.panel + 0.09 * look.label
-    figure = new_figure(*(look.page or (width, height)))
+    width = 7.0 if wide == 1 else 2.5 * wide + 2.5
+    height = tall * PANEL_HEIGHT * PANEL + 0.9
+    figure = new_figure(width, height)
     return figure.subplots(tall, wide, sharex=True, sharey="row", squeeze=False)
 
 
@@ -156,7 +151,6 @@ class _Drawing:
 
     table: Table
     layout: Layout
-    look: Style
     confidence: float
 
     def panels(self, row: Sequence[Axes], estimate: Estimate) -> None:
@@ -173,12 +167,12 @@ class _Drawing:
         seen = seen[np.isfinite(seen)]
         for ax in row:
             if estimate.share:
-                scale_to_100(ax, self.look)
+                scale_to_100(ax)
             else:
                 set_span(ax, seen.min(initial=np.inf), seen.max(initial=-np.inf))
             if not len(seen):
                 ax.set_yticks([])
-                say(ax, "nothing was measured", self.look)
+                say(ax, "nothing was measured")
 
     def _dots(self, ax: Axes, places: Float, runs: Sequence[Float], entry: Entry) -> Float:
         """Draw each run as a dot, and return the runs' values."""
@@ -187,7 +181,7 @@ class _Drawing:
             kept = kept[:: -(-len(kept) // MAX_DOTS) or 1]
             ax.plot(
                 np.full(len(kept), place), kept, linestyle="none", marker="o", color=entry.color,
-                markersize=0.35 * self.look.small, markeredgewidth=0, alpha=0.22, zorder=2.2,
+                markersize=0.35 * points(SMALL), markeredgewidth=0, alpha=0.22, zorder=2.2,
             )  # fmt: skip
         return np.concatenate(runs)
 
@@ -195,7 +189,7 @@ class _Drawing:
         self, ax: Axes, places: Float, runs: Sequence[Float], entry: Entry, estimate: Estimate
     ) -> Float:
         """Draw means or shares with their intervals, and return the bounds."""
-        scale, small = 100.0 if estimate.share else 1.0, self.look.small
+        scale, small = 100.0 if estimate.share else 1.0, points(SMALL)
         found = [estimate.interval(values, self.confidence) for values in runs]
         mean, low, high = scale * np.array([(each.mean, each.low, each.high) for each in found]).T
         joined = np.isfinite(mean)
@@ -221,16 +215,14 @@ class _Drawing:
 
     def _entry(self, name: str) -> Entry:
         """Return a line's colour, line style and marker, each of which identifies it."""
-        index, look = self.layout.lines.index(name), self.look
-        color, dash = look.curve(index)
-        if not look.greys:
-            dash = DASHES[index % len(DASHES)]
-        return Entry(name, color, dash, 1.3 * look.stroke, MARKERS[index % len(MARKERS)])
+        index = self.layout.lines.index(name)
+        dash, marker = DASHES[index % len(DASHES)], MARKERS[index % len(MARKERS)]
+        return Entry(name, curve_color(index), dash, 1.3, marker)
 
     def entries(self, above: Axes, shown: Sequence[Estimate]) -> list[Entry]:
         """Return the entries of the legend: several lines, and the meaning of hollow markers."""
-        look, lines = self.look, self.layout.lines
-        letters = letters_in(LEGEND * above.figure.bbox.width * 72 / above.figure.dpi, look.small)
+        lines, wide = self.layout.lines, above.figure.bbox.width * 72 / above.figure.dpi
+        letters = letters_in(LEGEND * wide, points(SMALL))
         entries = [self._entry(name) for name in (lines if len(lines) > 1 else ())]
         entries = [each._replace(name=shortened(each.name, letters)) for each in entries]
         if not self.layout.numeric:
@@ -238,7 +230,6 @@ class _Drawing:
         means = [each for each in shown if each.some]
         runs = [mean.values(each) for mean in means for each in self.table.points().values()]
         if any(0 < np.isfinite(values).sum() < len(values) for values in runs):
-            width = 1.3 * look.stroke
-            hollow = Entry("mean of some runs alone", look.muted, "", width, "o", hollow=True)
+            hollow = Entry("mean of some runs alone", MUTED, "", 1.3, "o", hollow=True)
             entries.append(hollow)
         return entries

@@ -11,7 +11,6 @@ from mars2d.cli.outputs import conclude, produced
 from mars2d.cli.row import show_row
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.terminal import tell
-from mars2d.output.figures.style import STYLES, style_of
 from mars2d.study.kept import records_beside
 from mars2d.study.plan import parse_all, seeds_of
 from mars2d.study.run import sweep
@@ -41,7 +40,6 @@ ARGUMENTS = {
     "--unit": option("NAME=UNIT", "the unit of a setting or a measure, such as spread=m", **MANY),
     "--out": option("OUT.csv", f"file of the rows (default: {TABLE})", Path, action=Output),
     "--figure": option("OUT", "draw the measures: .png, .pdf, .svg", Path, action=Output),
-    "--style": option("STYLE", f"of the figure: {', '.join(STYLES)}"),
     "--compare": option("KEY", "compare a setting's values, seed by seed"),
     "--confidence": option("P", "of intervals (default: 0.95)", float, default=0.95),
     "--time-limit": option("S", "seconds that a run may take", float),
@@ -61,14 +59,11 @@ def execute(arguments: argparse.Namespace) -> None:
     if arguments.row is not None:
         refuse(
             arguments,
-            f"{OF_RUNS} compare unit style",
+            f"{OF_RUNS} compare unit",
             "does not go with --row N: that runs as it was",
         )
         show_row(arguments, _table_here(arguments))
         return
-    if arguments.figure is None:
-        refuse(arguments, "style", "needs --figure OUT: it is of a figure")
-    style_of(arguments.style or "screen")
     confident(arguments.confidence)
     refuse(arguments, "view record html", "needs --row N: it is of one run")
     if not given:
@@ -139,7 +134,6 @@ def _report(arguments: argparse.Namespace, table: Table, path: Path) -> None:
     def draw() -> None:
         from mars2d.study.figure import save_study_figure
 
-        look, confidence = arguments.style or "screen", arguments.confidence
-        save_study_figure(table, arguments.figure, confidence=confidence, style=look)
+        save_study_figure(table, arguments.figure, confidence=arguments.confidence)
 
     conclude(*produced(arguments, {"figure": draw}))

@@ -17,7 +17,7 @@ from mars2d.output.figures.contacts import pair_name
 from mars2d.output.figures.extent import check_rows
 from mars2d.output.figures.panels import name_curves, panels, say
 from mars2d.output.figures.signals import draw_signals
-from mars2d.output.figures.style import style_of
+from mars2d.output.figures.style import INK
 from mars2d.output.signals import Signal
 
 if TYPE_CHECKING:
@@ -152,7 +152,7 @@ def _to_obstacles(record: Rows, placed: _Placed, rows: NDArray[np.intp]) -> Floa
 # -- the figure -----------------------------------------------------------------------------------
 
 
-def plot_distances(record: Rows, ax: Axes | None = None, *, style: str = "screen") -> Axes:
+def plot_distances(record: Rows, ax: Axes | None = None) -> Axes:
     """Draw clearances over time: the distances between surfaces, 0 in contact.
 
     Up to six pairs (of robots, or a robot and a prop) have a curve each. For more, the figure shows
@@ -160,10 +160,9 @@ def plot_distances(record: Rows, ax: Axes | None = None, *, style: str = "screen
     curve shows the clearance of the robot nearest to an obstacle or wall. For the definition see
     `clearances`.
 
-    ax: matplotlib axes to draw on; by default those of a new figure. style: as in `Record.plot`.
+    ax: matplotlib axes to draw on; by default those of a new figure.
     Returns the axes. Raises InputError for a record without rows.
     """
-    look = style_of(style)
     check_rows(record)
     found, scenario = clearances(record), record.scenario
     drawn: dict[str, Float] = {}
@@ -178,16 +177,15 @@ def plot_distances(record: Rows, ax: Axes | None = None, *, style: str = "screen
         whose = "nearest robot" if len(scenario.robots) > 1 else "robot"
         drawn[f"{whose} to an obstacle"] = np.fmin.reduce(found.obstacle, axis=1)
     unit = "m" if found.every == 1 else f"m, every {ordinal(found.every)} row"
-    with look.fonts():
-        (ax,) = panels(record, None if ax is None else [ax], ["clearance"], look, [2.2])
+    (ax,) = panels(record, None if ax is None else [ax], ["clearance"], [2.2])
     if drawn:
         values = np.stack(list(drawn.values()), axis=1)
         signal = Signal("clearance", unit, values, (), curves=tuple(drawn))
-        draw_signals(record, [signal], [ax], rows=slice(None, None, found.every), style=style)
-        ax.axhline(0.0, color=look.ink, linewidth=0.8 * look.stroke, zorder=2.5)
+        draw_signals(record, [signal], [ax], rows=slice(None, None, found.every))
+        ax.axhline(0.0, color=INK, linewidth=0.8, zorder=2.5)
     else:
-        say(ax, "no distances: there is one body and no obstacle", look)
-        name_curves(ax, scenario.title, [], look)
+        say(ax, "no distances: there is one body and no obstacle")
+        name_curves(ax, scenario.title, [])
     return ax
 
 

@@ -8,23 +8,16 @@ from typing import TYPE_CHECKING
 from mars2d.addons.maps import Drawing
 from mars2d.core.scene import PALETTE
 from mars2d.output.figures.extent import View
-from mars2d.output.figures.figure import (
-    INK,
-    dress_plane,
-    label,
-    legend_size,
-    new_figure,
-    save_drawing,
-)
-from mars2d.output.figures.legend import BESIDE, Entry, add_legend
-from mars2d.output.figures.style import SCREEN
+from mars2d.output.figures.figure import dress_plane, label, new_axes, save_drawing
+from mars2d.output.figures.legend import BESIDE, Entry, add_legend, legend_width
+from mars2d.output.figures.style import INK, TITLE, points
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-LONG_SIDE, MIN_SIDE = 8.0, 1.6
-"""The longer side of the drawing, and the least length of the other, inches."""
+ROOM = (8.0, 8.0)
+"""The room for the drawing, inches."""
 
 REST_COLOR = "#aab2bb"
 """The colour of layers beyond those of PALETTE, which are not named in the legend."""
@@ -42,8 +35,6 @@ def save_map(drawing: Drawing, path: str | Path) -> Path:
 
 def plot_map(drawing: Drawing) -> Figure:
     """Draw a map, areas filled and walls as lines, in a new figure with axes in metres."""
-    width, height = (max(side, max(drawing.size) / 20) for side in drawing.size)
-    scale = LONG_SIDE / max(width, height)
     names, counts = list(drawing.layers), drawing.layers
     colors = {names[0]: INK} if len(names) == 1 else dict(zip(names, PALETTE, strict=False))
     rows = [(color, f"{_short(name)}  {counts[name]}") for name, color in colors.items()]
@@ -51,18 +42,18 @@ def plot_map(drawing: Drawing) -> Figure:
     if rest:
         rows.append((REST_COLOR, f"{len(rest)} more  {sum(rest)}"))
     entries = [Entry(said, color, "-", 4.0) for color, said in rows] if len(names) > 1 else []
-    legend = legend_size(entries, SCREEN)[0]
-    size = max(scale * width, MIN_SIDE) + 0.9 + legend, max(scale * height, MIN_SIDE) + 0.9
-    ax = new_figure(*size).add_subplot()
+    margin, least = 0.03 * max(drawing.size), max(drawing.size) / View.RATIO
     xmin, xmax, ymin, ymax = drawing.bounds
-    margin = 0.03 * max(drawing.size)
-    dress_plane(ax, View(xmin - margin, xmax + margin, ymin - margin, ymax + margin))
+    more_x, more_y = (margin + max(0.0, least - side) / 2 for side in drawing.size)
+    view = View(xmin - more_x, xmax + more_x, ymin - more_y, ymax + more_y)
+    (ax,) = new_axes(view, beside=legend_width(entries), room=ROOM)
+    dress_plane(ax, view)
     label(ax)
     title = f"{drawing.source}, {drawing.size[0]:.3g} m x {drawing.size[1]:.3g} m"
-    ax.set_title(title, fontsize=SCREEN.title, color=INK, parse_math=False)
+    ax.set_title(title, fontsize=points(TITLE), color=INK, parse_math=False)
     for name in reversed(names):  # the layers with most pieces on top
         _paint(ax, drawing, name, colors.get(name, REST_COLOR))
-    add_legend(ax, entries, SCREEN, **BESIDE)
+    add_legend(ax, entries, **BESIDE)
     return ax.figure  # type: ignore[return-value]
 
 
