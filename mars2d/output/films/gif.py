@@ -27,7 +27,7 @@ OWN = 64
 """How many of the first picture's colours are in the palette; the rest is a coarse cube."""
 
 ALIKE = 8
-"""Of colours whose channels differ by less, only the first is in the palette; Pillow mixes them up."""
+"""Of colours whose channels differ by less, only the first is there, since Pillow mixes them up."""
 
 LONGEST = 655_350
 """How long a frame is seen at most, milliseconds."""

@@ -16,6 +16,7 @@ from mars2d.output.layers.addons import sensors
 from mars2d.output.layers.bodies import starts
 from mars2d.output.layers.legend import legends
 from mars2d.output.layers.table import FIRST_BODIES, LAST_BODIES, LAYERS, Layers, standing
+from mars2d.output.layers.trails import trails
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.grid import Bounds, draw_grid, labels
 from mars2d.output.raster.legend import draw_legends
@@ -24,34 +25,21 @@ from mars2d.output.raster.trails import Wakes
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 
-SHIFT_TOLERANCE = 1e-6
-"""The distance from a whole number of pixels up to which a shift counts as whole."""
-
 
 class Canvas:
-    """The layers that seldom change, drawn once: those that stand still, and the paths.
+    """The layers that seldom change, drawn once for a camera: those that stand still, and paths.
 
-    Other cameras of the same scale can show it shifted. camera: of the whole surface. area: its
-    part that is drawn, pixels. memory: bytes that may be used to go back in time quickly. seconds:
-    the time that drawing took. made: when it began, on the clock of `perf_counter`.
+    seconds: the time that drawing took. made: when it began, on the clock of `perf_counter`.
     """
 
     def __init__(
-        self,
-        painter: Painter,
-        frame: Frame,
-        camera: Camera,
-        layers: Layers,
-        size: tuple[int, int],
-        area: pygame.Rect,
-        *,
-        memory: int = 0,
-    ) -> None:
-        """Draw the layers that stand still on a surface of `size` pixels."""
-        self.made = perf_counter()
-        self.camera, self.area = camera, area
+        self, painter: Painter, frame: Frame, camera: Camera, layers: Layers, size: tuple[int, int],
+        plot: pygame.Rect,
+    ) -> None:  # fmt: skip
+        """Draw the layers that stand still on the part `plot` of a surface of `size` pixels."""
+        self.made, self.camera, self.area = perf_counter(), camera, plot
         self.still = pygame.Surface(size, 0, 32)
-        self.still.set_clip(area)
+        self.still.set_clip(plot)
         self.still.fill(painter.theme.page)
         scenario = frame.scenario
         for layer in takewhile(standing().__contains__, layers.seen(scenario.animation)):
@@ -61,33 +49,17 @@ class Canvas:
             else:
                 painter.paint(self.still, layer.shapes(frame).shapes, camera)
         self.wakes: Wakes | None = None
-        self._painter, self._scenario, self._memory = painter, scenario, memory
+        if layers.trails and scenario.animation.wake_style == "-":
+            self.wakes = Wakes(painter, scenario, camera, self.still)
+            self.wakes.show(frame)
         self.seconds = perf_counter() - self.made
 
-    def with_paths(self, frame: Frame) -> pygame.Surface:
-        """Return the picture with the paths up to a frame."""
+    def picture(self, frame: Frame) -> pygame.Surface:
+        """Return the picture, with solid paths up to a frame if they are seen."""
         if self.wakes is None:
-            start = perf_counter()
-            self.wakes = Wakes(self._painter, self._scenario, self.camera, self.still, self._memory)
-            self.wakes.show(frame)
-            self.seconds += perf_counter() - start
+            return self.still
         self.wakes.show(frame)
         return self.wakes.surface
-
-    def shift(self, camera: Camera) -> tuple[int, int]:
-        """Return the place of the surface's corner for another camera, in whole pixels."""
-        return round(camera.x - self.camera.x), round(camera.y - self.camera.y)
-
-    def shows(self, camera: Camera, plot: pygame.Rect) -> bool:
-        """Return whether the canvas covers all that a camera shows on a part of a surface."""
-        dx, dy = self.shift(camera)
-        return camera.scale == self.camera.scale and self.area.contains(plot.move(-dx, -dy))
-
-    def is_exact(self, camera: Camera) -> bool:
-        """Return whether the canvas is exact for a camera, without rounding of the shift."""
-        dx, dy = self.shift(camera)
-        off = camera.x - self.camera.x - dx, camera.y - self.camera.y - dy
-        return camera.scale == self.camera.scale and max(map(abs, off)) < SHIFT_TOLERANCE
 
 
 def grid_bounds(scenario: Scenario, camera: Camera, size: tuple[int, int]) -> Bounds:
@@ -97,9 +69,6 @@ def grid_bounds(scenario: Scenario, camera: Camera, size: tuple[int, int]) -> Bo
     return scenario.bounds
 
 
-MEMORY = 100_000_000
-"""The bytes that a window uses to go back in time quickly: about twenty pictures."""
-
 PATIENCE = 0.012
 """The seconds that the kept layers may take to draw before a moving camera jerks."""
 
@@ -108,9 +77,6 @@ MAX_AGE = 0.25
 
 NUMBERS = 48.0
 """The room for the numbers of an axis, points."""
-
-MARGIN = 0.25
-"""The margin that is drawn on all sides while the camera moves, as a share of the picture."""
 
 
 class _Shot(NamedTuple):
@@ -126,17 +92,14 @@ class _Shot(NamedTuple):
 class Stage:
     """Draws frames of one experiment after another; used by the window, pictures and films alike.
 
-    The layers that stand still are drawn once for each camera. The paths grow on a copy of that
+    The layers that stand still are drawn once for each camera. Solid paths grow on a copy of that
     picture, and the readings are drawn on a copy of the paths, until the sensors read again. All
     other layers are drawn for each frame.
-
-    memory: bytes that may be used to go back in time without drawing all paths from their start.
     """
 
-    def __init__(self, painter: Painter, memory: int = 0) -> None:
+    def __init__(self, painter: Painter) -> None:
         """Start with nothing drawn."""
         self.painter = painter
-        self.memory = memory
         self._canvas: Canvas | None = None
         self._key: tuple[Hashable, ...] = ()
         self._made_of: list[object] = []  # what the canvas shows
@@ -171,7 +134,7 @@ class Stage:
         surface.set_clip(plot)
         shot = _Shot(surface, frame, camera, layers, plot)
         canvas = self._canvas_for(shot, hurried)
-        (self._spread if canvas.shows(camera, plot) else self._enlarge)(shot, canvas)
+        (self._spread if canvas.camera == camera else self._enlarge)(shot, canvas)
         self._paint_above(shot, beneath, marks)
         if layers.grid:
             bounds = grid_bounds(frame.scenario, camera, surface.get_size())
@@ -238,32 +201,32 @@ class Stage:
         if key != self._key or len(of) != len(made_of) or not all(map(is_, of, made_of)):
             canvas = None
         self._key, self._made_of = key, of
-        if canvas is not None and hurried and canvas.seconds > PATIENCE:
-            if canvas.shows(camera, plot) or perf_counter() - canvas.made < MAX_AGE:
+        if canvas is not None:
+            young = hurried and perf_counter() - canvas.made < MAX_AGE
+            if canvas.camera == camera or (young and canvas.seconds > PATIENCE):
                 return canvas
-            wide = plot.inflate(2 * MARGIN * plot.width, 2 * MARGIN * plot.height)
-            camera, plot = camera.panned(-wide.left, -wide.top), pygame.Rect(0, 0, *wide.size)
-            size = wide.size
-        elif canvas is not None and canvas.is_exact(camera) and canvas.shows(camera, plot):
-            return canvas
-        new = Canvas(self.painter, frame, camera, layers, size, plot, memory=self.memory)
-        self._canvas = new
-        return new
+        self._canvas = Canvas(self.painter, frame, camera, layers, size, plot)
+        return self._canvas
 
     def _spread(self, shot: _Shot, canvas: Canvas) -> None:
         """Draw the layers that stand still, the paths and the readings."""
-        picture = canvas.with_paths(shot.frame) if shot.layers.trails else canvas.still
-        if shot.layers.sensors and shot.frame.readings:
-            picture = self._with_sensors(picture, shot.frame, canvas)
-        dx, dy = canvas.shift(shot.camera)
-        shot.surface.blit(picture, shot.plot, shot.plot.move(-dx, -dy))
-        if shot.layers.trails and canvas.wakes is not None:
-            canvas.wakes.finish(shot.surface, shot.frame, (dx, dy))
+        surface, frame, camera, layers, plot = shot
+        picture = canvas.picture(frame)
+        if layers.trails and canvas.wakes is None:  # dashed, or marks
+            surface.blit(picture, plot, plot)
+            shapes = trails(frame).shapes + (sensors(frame).shapes if layers.sensors else [])
+            self.painter.paint(surface, shapes, camera)
+            return
+        if layers.sensors and frame.readings:
+            picture = self._with_sensors(picture, frame, canvas)
+        surface.blit(picture, plot, plot)
+        if canvas.wakes is not None:
+            canvas.wakes.finish(surface, frame)
 
     def _enlarge(self, shot: _Shot, canvas: Canvas) -> None:
         """Draw a canvas as another camera sees it, roughly, and the readings."""
         surface, frame, camera, layers, plot = shot
-        last = canvas.with_paths(frame) if layers.trails else canvas.still
+        last = canvas.picture(frame)
         factor = camera.scale / canvas.camera.scale
         corner = camera.x - factor * canvas.camera.x, camera.y - factor * canvas.camera.y
         # The whole pixels of the last picture that are visible now.
