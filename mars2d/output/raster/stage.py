@@ -17,7 +17,7 @@ from mars2d.output.layers.bodies import starts
 from mars2d.output.layers.legend import legends
 from mars2d.output.layers.table import FIRST_BODIES, LAST_BODIES, LAYERS, Layers, standing
 from mars2d.output.layers.trails import trails
-from mars2d.output.raster.camera import Camera
+from mars2d.output.raster.camera import PIXELS, Camera
 from mars2d.output.raster.grid import Bounds, draw_grid, labels
 from mars2d.output.raster.legend import draw_legends
 from mars2d.output.raster.painter import Painter
@@ -138,7 +138,8 @@ class Stage:
         self._paint_above(shot, beneath, marks)
         if layers.grid:
             bounds = grid_bounds(frame.scenario, camera, surface.get_size())
-            surface.fblits(labels(plot, camera, bounds, self.painter))
+            numbers = labels(plot, camera, bounds, self.painter)
+            self.painter.paint(surface, numbers.shapes, PIXELS, shaded=False)
         self._draw_legends(shot, free or [plot])
         surface.set_clip(before)
 
