@@ -35,14 +35,15 @@ def add_legend(ax: Axes, entries: Sequence[Entry], **place: Any) -> None:
     from matplotlib.lines import Line2D
 
     small = points(SMALL)
+    dashes: list[Any] = [entry.dash or "none" for entry in entries]
     handles = [
         Line2D(
-            [], [], color=entry.color, linestyle=entry.dash or "none", linewidth=entry.width,
+            [], [], color=entry.color, linestyle=dash, linewidth=entry.width,
             marker=entry.marker, markersize=0.67 * small,
             markerfacecolor="white" if entry.hollow else entry.color,
             markeredgewidth=entry.width if entry.hollow else 0.0,
         )
-        for entry in entries
+        for entry, dash in zip(entries, dashes, strict=True)
     ]  # fmt: skip
     before = ax.get_legend()
     legend = ax.legend(

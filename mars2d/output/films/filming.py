@@ -64,8 +64,9 @@ class Filming:
             self._start += due / FPS - MAX_STILL
             due = int(MAX_STILL * FPS)
         with writing(self.path):
-            for _ in range(due - 1 if self._shown else 0):
-                self._encoder.add(self._shown)  # what was seen until then
+            if self._shown is not None:
+                for _ in range(due - 1):
+                    self._encoder.add(self._shown)  # what was seen until then
             self._shown = _fitted(picture, self._shown)
             self._encoder.add(self._shown)
         self.frames += due

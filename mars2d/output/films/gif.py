@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from itertools import product
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -104,7 +104,8 @@ def _palette(image: Image) -> Entries:
     from mars2d.output.raster.theme import PRINTED
 
     banners = [bytes.fromhex(color[1:]) for color in (PRINTED.over, PRINTED.failed)]
-    seen = sorted(image.getcolors(image.width * image.height), reverse=True)
+    colors: Any = image.getcolors(image.width * image.height)
+    seen = sorted(colors, reverse=True)
     cube = product((0, 64, 128, 191, 255), repeat=3)
     wanted = np.array([*(color for _, color in seen[:OWN]), *map(tuple, banners), *cube])
     kept = wanted[:1]
