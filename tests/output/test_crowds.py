@@ -12,8 +12,8 @@ from mars2d.core.scene import PALETTE, Circle, rgb
 from mars2d.output.figures.contacts import plot_contacts
 from mars2d.output.figures.figure import plot_paths, save_drawing
 from mars2d.output.figures.signals import plot_signals
+from mars2d.output.layers.bodies import RING, place_ring
 from mars2d.output.layers.legend import legends
-from mars2d.output.layers.rings import RING, place_ring
 from mars2d.output.layers.table import of_bodies
 from mars2d.scenario.controllers import ByHand
 from mars2d.sensors import Beacon, Imu, Proximity, RangeBearing, RangeFinder, SonarRing

@@ -9,7 +9,7 @@ from mars2d.addons import Communication
 from mars2d.cli.command_line import main
 from mars2d.core.scene import Circle
 from mars2d.output.figures.figure import plot_paths, plot_snapshots
-from mars2d.output.layers.ranges import place_range, range_of
+from mars2d.output.layers.neighbours import place_range, range_of
 from mars2d.output.layers.table import Layers, of_bodies
 from tests.cases import each_case
 

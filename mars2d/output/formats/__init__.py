@@ -110,7 +110,7 @@ def require(path: Path) -> None:
 
 
 def _path(path: str | Path) -> Path:
-    if not isinstance(path, (str, Path)) or "\0" in str(path):
+    if not isinstance(path, (str, Path)):
         raise InputError(f"path = {shown(path)}: expected the name of a file, such as 'run.npz'")
     return Path(path)
 

@@ -12,7 +12,7 @@ import pytest
 from mars2d import Robot, Scenario, Unicycle
 from mars2d.core.scene import Arrow, Line
 from mars2d.output.layers.legend import legends
-from mars2d.output.layers.neighbours import Links
+from mars2d.output.layers.neighbours import neighbours
 from mars2d.output.layers.table import Layers
 from mars2d.output.layers.velocities import speed_scale, velocities
 from mars2d.output.raster.camera import Camera
@@ -124,10 +124,10 @@ def test_a_name_hides_no_body_and_can_be_read():
 # -- neighbours -----------------------------------------------------------------------------------
 
 
-def linked(frame, links=None):
+def linked(frame):
     """Return whether a line goes from robot to robot, for each pair of neighbours on a row."""
     surface = pygame.Surface(SIZE, 0, 32)
-    Painter().paint(surface, (links or Links())(frame).shapes, CAMERA)
+    Painter().paint(surface, neighbours(frame).shapes, CAMERA)
     middles = CAMERA.to_pixels((frame.pose[:2, 1:] + frame.pose[:2, :-1]).T / 2)
     return [surface.get_at((round(x), round(y)))[:3] != (0, 0, 0) for x, y in middles.tolist()]
 
