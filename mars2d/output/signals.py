@@ -37,22 +37,19 @@ HEADS = (
 DRIVE_UNIT = "unit of the drive"
 """The unit of commands if drives state none, or different ones."""
 
-COLOR_UNIT = "red, green, blue"
-"""The unit of colours, which are drawn in their own colours."""
-
 NOTHING = 1e-9
 """Curves of less than this share of the largest one are not drawn."""
 
-MIN_IMAGE_NUMBERS = 6
-"""The fewest numbers of one kind in a reading that is drawn as an image."""
+MAX_NUMBERS = 12
+"""The most numbers of one kind in a reading that are drawn as curves."""
 
 
 @dataclass(frozen=True, eq=False)
 class Signal:
     """A column over time.
 
-    values: (T, k), one column for each of the `bodies`; (T, k, beams) for readings of many numbers,
-    (T, k, pixels, 3) for colours. held: "post" if a value holds until the next row, "pre" if it has
+    values: (T, k), one column for each of the `bodies`; (T, k, m) for readings of several numbers.
+    held: "post" if a value holds until the next row, "pre" if it has
     held since the row before, "" if it belongs to an instant. bearings: (beams,) degrees, if known.
     """
 
@@ -255,8 +252,8 @@ def _readings(
     )  # fmt: skip
     found = _by_quantity(whole, sensor, name, parts)
     for signal in found:
-        if signal.values.ndim > 3 and signal.unit != COLOR_UNIT:
-            shape = signal.values.shape[2:]
+        shape = signal.values.shape[2:]
+        if len(shape) > 1 or sum(shape) > MAX_NUMBERS:
             raise InputError(
                 f"columns: {signal.name!r} has readings of shape {shape}: choose a part of them, "
                 f"as '{signal.name}.0'"
@@ -281,9 +278,6 @@ def _by_quantity(whole: Signal, sensor: Sensor | None, name: str, parts: list[st
     quantities = sensor.quantities if sensor is not None else ()
     shape = whole.values.shape[2:]
     several = len(quantities) > 1 and shape[-1:] == (len(quantities),)
-    if not parts and shape[-1:] == (3,) and len(shape) < 3 and _is_color(quantities):
-        pixels = whole.values.reshape(*whole.values.shape[:2], -1, 3)
-        return [replace(whole, unit=COLOR_UNIT, values=pixels)]
     names = [quantity.name for quantity in quantities] if several else []
     signal, wanted = whole, list(range(len(names)))
     for part in parts:
@@ -309,10 +303,6 @@ def _by_quantity(whole: Signal, sensor: Sensor | None, name: str, parts: list[st
         )
         for k in wanted
     ]  # fmt: skip
-
-
-def _is_color(quantities: Sequence[Quantity]) -> bool:
-    return bool(quantities) and all(quantity.kind == "color" for quantity in quantities)
 
 
 def _of_kind(signal: Signal, quantity: Quantity) -> Signal:

@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from numpy.typing import ArrayLike
-    from pandas import DataFrame
     from xarray import Dataset
 
 LOAD_LIMIT = 2**31
@@ -125,12 +124,6 @@ class Record(Rows):
         return record_svg(self)
 
     # -- for programs -------------------------------------------------------------------------
-
-    def to_frame(self, table: str = "bodies") -> DataFrame:
-        """Return a table of pandas: "bodies", "contacts" or "messages"; see `formats.frame`."""
-        from mars2d.output.formats.frame import to_frame
-
-        return to_frame(self, table)
 
     def to_xarray(self) -> Dataset:
         """Return all columns as a dataset of xarray, with units; see `output.formats.dataset`."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -16,7 +16,6 @@ from mars2d.output.figures.figure import LEGEND_LIMIT
 from mars2d.output.figures.legend import BESIDE, Entry, add_legend, plain_name
 from mars2d.output.figures.panels import (
     caption,
-    color_bar,
     curve,
     name_curves,
     name_rows,
@@ -26,7 +25,7 @@ from mars2d.output.figures.panels import (
     width_of,
 )
 from mars2d.output.figures.style import INK, MUTED, curve_color, robot_curve
-from mars2d.output.signals import MIN_IMAGE_NUMBERS, Signal, chosen_robots, signals, without_nothing
+from mars2d.output.signals import Signal, chosen_robots, signals, without_nothing
 from mars2d.record.interventions import Change, Place
 
 if TYPE_CHECKING:
@@ -70,9 +69,9 @@ def plot_signals(
     each panel; by default those of a new figure. start, end: seconds, the part of the run that is
     drawn; by default all of it.
 
-    A scan, for example of a laser, is an image of a robot's readings over time and bearing. Flags
-    are bars where they are True. nan and inf are gaps. A dotted line marks each row at which a
-    robot was placed by hand or the scenario was changed.
+    Flags are bars where they are True. nan and inf are gaps. A dotted line marks each row at which
+    a robot was placed by hand or the scenario was changed. Of readings of many numbers, such as
+    scans, parts can be drawn.
 
     Raises InputError for a record without rows, and for unknown columns, robots and times.
     """
@@ -103,17 +102,16 @@ def draw_signals(
     """
     check_rows(record)
     robots = chosen_robots(record, order)
-    shown = [part for signal in found for part in _by_robot(signal)]
-    if len(shown) > PANEL_LIMIT // 4:
+    if len(found) > PANEL_LIMIT // 4:
         raise InputError(
-            f"columns: they need {len(shown)} panels, and a figure has at most {PANEL_LIMIT // 4}: "
+            f"columns: they need {len(found)} panels, and a figure has at most {PANEL_LIMIT // 4}: "
             "choose some columns, or some robots"
         )
     own = axes is None
-    axes = panels(record, axes, [signal.name for signal in shown], rows=rows)
-    for ax, signal in zip(axes, shown, strict=True):
+    axes = panels(record, axes, [signal.name for signal in found], rows=rows)
+    for ax, signal in zip(axes, found, strict=True):
         _draw(ax, record, rows, signal)
-    entries = _entries(record, robots, shown) + _mark(axes, record, rows)
+    entries = _entries(record, robots, found) + _mark(axes, record, rows)
     name_curves(axes[0], record.scenario.title, entries)
     if own:
         axes[0].figure.align_ylabels(axes)
@@ -135,25 +133,8 @@ def _rows(record: Rows, start: float | None, end: float | None) -> slice:
     return slice(int(low), int(high))
 
 
-def _by_robot(signal: Signal) -> Iterator[Signal]:
-    """Yield a signal for each panel: an image has one for each robot."""
-    if signal.values.ndim == 2 or not _is_image(signal):
-        yield signal
-        return
-    for k, robot in enumerate(signal.bodies):
-        yield replace(signal, values=signal.values[:, k : k + 1], bodies=(robot,))
-
-
-def _is_image(signal: Signal) -> bool:
-    several = signal.values.ndim == 3 and signal.values.shape[2] >= MIN_IMAGE_NUMBERS
-    return signal.values.ndim == 4 or (several and signal.values.dtype != np.bool_)
-
-
 def _draw(ax: Axes, record: Rows, rows: slice, signal: Signal) -> None:
     times = record.time[rows]
-    if signal.values.ndim > 2 and _is_image(signal):
-        _image(ax, record, times, signal)
-        return
     signal = without_nothing(signal)
     values = signal.values.reshape(len(times), -1)
     each = values.shape[1] // max(1, len(signal.bodies))
@@ -200,9 +181,9 @@ def _own_entries(signal: Signal) -> list[Entry]:
     ]
 
 
-def _entries(record: Rows, robots: tuple[int, ...], shown: list[Signal]) -> list[Entry]:
+def _entries(record: Rows, robots: tuple[int, ...], shown: Sequence[Signal]) -> list[Entry]:
     """Return the legend of the bodies with curves, robots first, or none for too many."""
-    curves = [s for s in shown if s.values.dtype != np.bool_ and not _is_image(s)]
+    curves = [s for s in shown if s.values.dtype != np.bool_]
     drawn = {body for signal in curves for body in signal.bodies}
     order = [robot for robot in robots if robot in drawn]
     order += sorted(body for body in drawn if body >= len(record.scenario.robots))
@@ -224,9 +205,6 @@ def _mark(axes: Sequence[Axes], record: Rows, rows: slice) -> list[Entry]:
     return [entry]
 
 
-# -- flags and images -----------------------------------------------------------------------------
-
-
 def _flags(ax: Axes, record: Rows, times: Float, signal: Signal, values: Float) -> None:
     """Draw bars where flags (T, rows) are True, one row each, the first on top."""
     count = values.shape[1]
@@ -245,46 +223,3 @@ def _flags(ax: Axes, record: Rows, times: Float, signal: Signal, values: Float) 
     name_rows(ax, [plain_name(n) for n in names] if count <= ROWS else [], count)
     if not values.any():
         say(ax, "never")
-
-
-def _image(ax: Axes, record: Rows, times: Float, signal: Signal) -> None:
-    """Draw the readings (T, 1, beams) or (T, 1, pixels, 3) of a robot over time and bearing."""
-    import matplotlib as mpl
-    from matplotlib.image import AxesImage
-    from matplotlib.ticker import MultipleLocator
-
-    values = signal.values[:, 0]
-    time, step = float(times[0]), record.scenario.sampling_time
-    beams = values.shape[1]
-    low, high = 0.0, float(beams)
-    unit = ""
-    if signal.bearings is not None:
-        half = (signal.bearings[1] - signal.bearings[0]) / 2
-        low, high = float(signal.bearings[0] - half), float(signal.bearings[-1] + half)
-        unit = "°"
-        ax.yaxis.set_major_locator(MultipleLocator(90 if high - low > 200 else 30))
-    cmap = mpl.colormaps["viridis"].with_extremes(bad="white")
-    image = AxesImage(
-        ax, cmap=cmap, origin="lower", interpolation="nearest", zorder=1,
-        extent=(time, time + step * len(values), low, high),
-    )  # fmt: skip
-    shown = values.swapaxes(0, 1)
-    if shown.ndim == 3:
-        shown = np.where(np.isfinite(shown), shown, 1.0)
-    image.set_data(np.ma.masked_invalid(shown))
-    ax.add_image(image)
-    image.set_clip_path(ax.patch)
-    ax.set_ylim(low, high)
-    ax.grid(visible=False)
-    name = plain_name(str(record.scenario.robots[signal.bodies[0]].name))
-    index = ", index" if beams > 1 and not unit else ""
-    caption(ax, f"{signal.name} of {name}{index}", unit)
-    if beams == 1:
-        ax.set_yticks([])
-    if shown.ndim == 2:
-        finite = shown[np.isfinite(shown)]
-        if not len(finite):
-            say(ax, "nothing was measured")
-            return
-        image.set_clim(min(0.0, finite.min()), finite.max())
-        color_bar(ax, image, f"[{signal.unit}]" if signal.unit else "")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -163,15 +163,4 @@ def parts_of(record: Rows) -> dict[str, list[Part]]:
             taken.add(name)
             carriers = tuple(record.sensor_robots[sensor])
             found[name] = [Part(f"sensor:{sensor}", (every, *place), carriers)]
-    return found
-
-
-def units_of(record: Rows, parts: Mapping[str, list[Part]]) -> dict[str, str]:
-    """Return the units of the table's columns, of those that have one."""
-    found = {}
-    for column, ((name, at, _), *_others) in parts.items():
-        units = units_in(record, name)
-        if units:  # one for all values, or one for each along an axis
-            of_sensor = name.startswith("sensor:")
-            found[column] = units[at[-1 if of_sensor else 0] if len(units) > 1 else 0]
     return found
