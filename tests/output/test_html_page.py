@@ -359,13 +359,6 @@ def test_a_body_is_picked_by_list_and_followed(tab):
     assert not tab.is_on("#follow")
 
 
-def test_the_panel_says_what_sensors_read(tab, record):
-    tab.page.select_option("#bodies", label="robot0")
-    tab.settle()
-    near = "yes" if record.sensors["proximity"][0, 0] else "no"
-    assert f"proximity\n{near}" in tab.text("#panel").replace("\n\n", "\n")
-
-
 # -- looks ----------------------------------------------------------------------------------------
 
 

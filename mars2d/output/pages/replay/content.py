@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from mars2d.bodies.colors import prop_colors
 from mars2d.core.description import snake_case
-from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene
 from mars2d.output.figures.extent import View, check_rows
 from mars2d.output.layers.arrows import MAX_ARROW
@@ -49,9 +48,6 @@ FINE, TURN, COARSE = 2**-20, 2 * np.pi / 2**16, 2**-16
 LEAP = 0.12
 """The share of the view beyond which a shape leaps between rows, rather than moving evenly."""
 
-MAX_NUMBERS = 8
-"""The most numbers of a reading that is shown as text."""
-
 ELSEWHERE = np.array([0.7, -0.4, 1.1])
 """A pose that tells what turns with a body from what only moves with it."""
 
@@ -81,7 +77,7 @@ class _Content:
         self._add_poses()
         header = self._about()
         header["bodies"] = self._bodies()
-        header["readings"] = self._add_panel()
+        self._add_panel()
         header["marks"] = self._add_marks()
         header["layers"] = self._table()
         header["legends"] = [_legend(each) for each in legends(self.scenario)]
@@ -186,24 +182,19 @@ class _Content:
 
     # -- the panel ----------------------------------------------------------------------------
 
-    def _add_panel(self) -> list[dict[str, Any]]:
-        """Add commands, efforts and readings; return how the readings are said in words."""
-        record = self.record
-        said = list(_readings(record))
-        series = [("command", record.command), ("effort", record.effort)]
-        series += [(f"reading{k}", values) for k, (_, values) in enumerate(said)]
+    def _add_panel(self) -> None:
+        """Add commands and efforts."""
 
         def packed(every: int) -> Columns:
             columns = Columns()
-            for name, values in series:
-                finite = values[np.isfinite(values)]
-                step = max(float(np.abs(finite).max(initial=0.0)), 1e-6) / 2**15
+            for name in ("command", "effort"):
+                values = getattr(self.record, name)
+                step = max(float(np.abs(values).max(initial=0.0)), 1e-6) / 2**15
                 rows = rounded(values[self.kept][::every], step)
                 columns.add(name, rows, order=1, step=step, every=every)
             return columns
 
-        self._fit("commands and readings in the panel", PANEL, packed)
-        return [told | {"column": f"reading{k}"} for k, (told, _) in enumerate(said)]
+        self._fit("commands in the panel", PANEL, packed)
 
     def _add_marks(self) -> list[dict[str, Any]]:
         """Add the rows that have marks on the time bar; return which kinds there are."""
@@ -366,27 +357,3 @@ def _gaps(ways: Float, poses: Float, kept: Int, size: float) -> NDArray[np.bool_
     gone = np.diff(ways[kept], axis=0, prepend=ways[:1])
     line = np.hypot(*np.diff(poses[kept, :2], axis=0, prepend=poses[:1, :2]).swapaxes(0, 1))
     return np.asarray(gone - line > np.maximum(0.1 * gone, size / 500))
-
-
-def _readings(record: Rows) -> list[tuple[dict[str, Any], Float]]:
-    """Return the readings of few numbers: their names and units, and the numbers (T, m).
-
-    A loaded record lacks the sensors of the user's own.
-    """
-    found = []
-    for name, robots in record.sensor_robots.items():
-        for k, robot in enumerate(robots):
-            sensor = record.scenario.robots[robot].sensor(name)
-            values = record.sensors[name][:, k].reshape(len(record), -1).astype(float)
-            count = values.shape[1]
-            if sensor is None or not 0 < count <= MAX_NUMBERS:
-                continue
-            stated = list(sensor.quantities) or [Quantity("value")]
-            kinds = [stated[i % len(stated)] for i in range(count)]
-            told = {
-                "name": name,
-                "robot": robot,
-                "parts": [[q.name, q.unit, q.kind] for q in kinds],
-            }
-            found.append((told, values))
-    return found

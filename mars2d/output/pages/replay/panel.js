@@ -3,8 +3,6 @@
 const MINUS = "\u2212";
 
 function inWords(value, unit = "", kind = "number") {
-  if (Number.isNaN(value)) return kind === "flag" ? "no" : "nothing";
-  if (kind === "flag") return value > 0.5 ? "yes" : "no";
   if (kind === "angle") {
     const turned = ((value * 180 / Math.PI + 180) % 360 + 360) % 360 - 180;
     return `${Math.round(turned) + 0}°`.replace("-", MINUS);
@@ -54,22 +52,7 @@ class Panel {
         const effort = record.columns.effort.at(picture.row, body);
         return [effort >= record.slipping ? "slips" : `${Math.round(100 * effort)} %`];
       });
-      for (const reading of record.readings.filter((each) => each.robot === body)) {
-        const column = record.columns[reading.column];
-        row(reading.name, () => this.reading(reading.parts, (k) => column.at(picture.row, k)));
-      }
     }
-  }
-
-  // What a sensor reads; of things seen at a distance in a direction, those that are seen.
-  reading(parts, value) {
-    const say = ([, unit, kind], k) => inWords(value(k), unit || (kind === "distance" ? "m" : ""), kind);
-    if (parts.length > 1 && parts[0][2] === "distance" && parts[1][2] === "angle") {
-      const seen = parts.map((_, k) => k).filter((k) => k % 2 === 0 && Number.isFinite(value(k)));
-      return seen.length ? seen.map((k) => `${say(parts[k], k)} at ${say(parts[k + 1], k + 1)}`) : ["nothing"];
-    }
-    if (parts.length === 1) return [say(parts[0], 0)];
-    return parts.map((part, k) => `${part[0]} ${say(part, k)}`);
   }
 
   // Say it as it is now.
