@@ -269,7 +269,7 @@ assert "matplotlib" not in sys.modules
 run = mars2d.run("random_walk", stop_time=20)
 run.plot()._repr_png_()
 figure.plot_snapshots(run, [0, 20])
-import matplotlib as mpl
+import matplotlib
 names = set(matplotlib.rcParams) - {"backend"}  # to look at that one imports pyplot
 before = {name: matplotlib.rcParams[name] for name in names}
 figure.save_figure(run, sys.argv[1])

@@ -213,6 +213,7 @@ def test_a_replay_has_all_layers_in_the_order_of_the_table(browser, record, tabl
     tab = Tab(browser, (1700, 1000))
     tab.open(record.save_html(tmp_path / "layers.html"))
     tab.press("End", "u", "i")
+    tab.click("Show")
     tab.click("Neighbours")
     tab.click("Ranges")
     check_order(tab.picture().astype(int))

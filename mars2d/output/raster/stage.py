@@ -197,7 +197,7 @@ class Stage:
         if layers.trails or "starts" in seen:
             of, began = [scenario], b"".join(poses.tobytes() for poses in starts(frame))
         looks = size, tuple(plot), self.painter.ui, self.painter.theme
-        key = frozenset(seen), scenario.on_exit, scenario.bounds, began, looks
+        key = frozenset(seen), layers.trails, scenario.on_exit, scenario.bounds, began, looks
         canvas, made_of = self._canvas, self._made_of
         if key != self._key or len(of) != len(made_of) or not all(map(is_, of, made_of)):
             canvas = None

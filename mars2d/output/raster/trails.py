@@ -62,7 +62,7 @@ class Wakes:
             self._pens = new[0].copy()
         cuts: dict[int, list[int]] = {}
         for row, body in frame.leaps:
-            if row >= k:
+            if k <= row < rows:
                 cuts.setdefault(body, []).append(row - k)
         robots, bodies = len(frame.scenario.robots), new.shape[2]
         for body in (*range(robots, bodies), *range(robots)):
