@@ -1,4 +1,4 @@
-"""An examination of this machine: versions, extras, display, engine, plug-ins, physics."""
+"""An examination of this machine: versions, extras, display, engine, physics."""
 
 from __future__ import annotations
 
@@ -75,7 +75,6 @@ def examine() -> Iterator[Finding]:
         if every.issuperset(packages):  # the others are for developers
             yield _extra(name, packages)
     yield _engine()
-    yield from _plugins()
     yield _physics()
 
 
@@ -159,18 +158,6 @@ def remedy() -> str:
         source = shlex.quote(f"{kind}{told['url']}") if told else "--no-binary mars2d mars2d"
         again = f"--force-reinstall --no-deps --no-cache-dir {source}"
     return " && ".join(filter(None, [tools.format(*sys.version_info), f"pip install {again}"]))
-
-
-def _plugins() -> Iterator[Finding]:
-    """Yield the plug-ins of other packages; a broken one is not a fault of MARS2D."""
-    from mars2d.scenario.registry import FAMILIES, misspelt_groups, plugins
-
-    for part in (part for family in FAMILIES for part in plugins(family)):
-        text = f"{part.name}, {part.family}, of {part.package} {part.version}"
-        problem = f": not usable: {part.problem}" if part.problem else ""
-        yield Finding("plug-in", text + problem, ok=None if problem else True)
-    for group in misspelt_groups():
-        yield Finding("plug-in", f"an entry point of the group {group}", ok=None)
 
 
 def _physics() -> Finding:

@@ -18,17 +18,21 @@ from mars2d.output.figures.panels import (
     PANEL,
     caption,
     checked_axes,
+    frame_panel,
     letters_in,
     name_curves,
     say,
     set_span,
+    short_number,
+    size_of,
 )
-from mars2d.output.figures.style import DASHES, MUTED, SMALL, curve_color, points
-from mars2d.study.axis import dress, name_axis, scale_to_100
+from mars2d.output.figures.style import DASHES, INK, MUTED, SMALL, curve_color, points
 from mars2d.study.estimates import Estimate, estimates
 from mars2d.study.layout import Layout, layout_of
 from mars2d.study.statistics import confident
 from mars2d.study.table import Table
+from mars2d.study.text import in_words
+from mars2d.study.units import with_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -46,6 +50,9 @@ MARKER_SIZE = 0.6
 LEGEND = 0.6
 """The longest name in a legend, as a share of the figure's width."""
 
+TURNED_LETTERS = 28
+"""The most letters of a value's name that is turned."""
+
 PANEL_HEIGHT = 1.5
 """The height of a panel, in heights of a panel over time."""
 
@@ -62,7 +69,7 @@ def plot_study(
     Means and shares have intervals of the given confidence, and each run is a faint dot. A mean of
     only some runs, because others have no number, is hollow; the panel below shows their share.
     x: the setting along the axis, by default the first with several numbers; each combination of
-    the others is a line. axes: one for each panel, row by row; by default those of a new figure.
+    the others is a line. axes: one for each panel; by default those of a new figure.
     Raises InputError if there is nothing to draw, or too much.
     """
     confidence = confident(confidence)
@@ -72,35 +79,26 @@ def plot_study(
         raise InputError(f"figure: the study of {table.experiment} has no {what}")
     layout = layout_of(table, x)
     drawing = _Drawing(table, layout, confidence)
-    grid = _grid(axes, shown, len(layout.columns))
-    for ax in grid.ravel():
-        dress(ax, layout)
-    for row, estimate in zip(grid, shown, strict=True):
-        drawing.panels(row, estimate)
-        caption(row[0], estimate.label, "%" if estimate.share else estimate.unit)
-    for k, ax in enumerate(grid.ravel()):
-        if axes is not None or k >= grid.size - len(layout.columns):
-            name_axis(ax, table, layout, k % len(layout.columns))
+    panels = _panels(axes, shown)
+    for ax, estimate in zip(panels, shown, strict=True):
+        _dress(ax, layout)
+        drawing.panel(ax, estimate)
+        caption(ax, estimate.label, "%" if estimate.share else estimate.unit)
+        if axes is not None or ax is panels[-1]:
+            _name_axis(ax, table, layout)
         else:
             ax.tick_params(labelbottom=False)
-        ax.tick_params(labelleft=axes is not None or not k % len(layout.columns))
     kinds = " and ".join(sorted({"shares" if each.share else "means" for each in shown}))
     title = f"{table.experiment}: {kinds} with {100 * confidence:.4g} % intervals"
     if table.failed:
         title += f", {counted(len(table.failed), 'run')} failed"
-    above = _above(grid, own=axes is None)
-    name_curves(above, title, drawing.entries(above, shown))
+    name_curves(panels[0], title, drawing.entries(panels[0], shown))
     if axes is None:
-        show_in_notebooks(*grid.ravel())
-    return list(grid.ravel())
+        show_in_notebooks(*panels)
+    return panels
 
 
-def save_study_figure(
-    table: Table,
-    path: str | Path,
-    *,
-    confidence: float = 0.95,
-) -> Path:
+def save_study_figure(table: Table, path: str | Path, *, confidence: float = 0.95) -> Path:
     """Save the figure of `plot_study` as ``.png``, ``.pdf`` or ``.svg`` and return its path.
 
     The same table gives the same bytes. Raises InputError as `plot_study` does, for any other
@@ -116,33 +114,51 @@ def save_study_figure(
 # -- panels ----------------------------------------------------------------------------------------
 
 
-def _grid(axes: Sequence[Axes] | None, shown: Sequence[Estimate], wide: int) -> NDArray[Any]:
-    """Return the panels' axes, (estimates, columns): those given, or those of a new figure."""
+def _panels(axes: Sequence[Axes] | None, shown: Sequence[Estimate]) -> list[Axes]:
+    """Return the axes of the panels: those given, or those of a new figure."""
     tall = len(shown)
     if axes is not None:
-        names = ", ".join(estimate.label for estimate in shown)
-        beside = f", {wide} side by side" if wide > 1 else ""
-        given = checked_axes(axes, tall * wide, f"({names}{beside})")
-        return np.array(given, dtype=object).reshape(tall, wide)
-    width = 7.0 if wide == 1 else 2.5 * wide + 2.5
-    height = tall * PANEL_HEIGHT * PANEL + 0.9
-    figure = new_figure(width, height)
-    return figure.subplots(tall, wide, sharex=True, sharey="row", squeeze=False)
+        return list(checked_axes(axes, tall, f"({', '.join(each.label for each in shown)})"))
+    figure = new_figure(7.0, tall * PANEL_HEIGHT * PANEL + 0.9)
+    return list(figure.subplots(tall, 1, sharex=True, squeeze=False)[:, 0])
 
 
-def _above(grid: NDArray[Any], *, own: bool) -> Axes:
-    """Return the axes above which title and legend stand; they span panels side by side.
+def _dress(ax: Axes, layout: Layout) -> None:
+    """Set the scale, limits and ticks of the axis, grid and spines."""
+    from matplotlib.ticker import FuncFormatter, NullLocator
 
-    If the axes were given, return the first of them, since the space above others is not ours.
-    """
-    first: Axes = grid[0, 0]
-    if grid.shape[1] == 1 or not own:
-        return first
-    place = first.get_gridspec()
-    assert place is not None  # they are those of `figure.subplots`
-    wide = first.figure.add_subplot(place[0, :])
-    wide.set_axis_off()
-    return wide
+    if layout.logarithmic:
+        ax.set_xscale("log")
+        ax.xaxis.set_minor_locator(NullLocator())
+    ax.set_xlim(*layout.limits())
+    if layout.roomy() or not layout.numeric:
+        _name_values(ax, layout)
+    else:
+        ax.xaxis.set_major_formatter(FuncFormatter(short_number))
+    frame_panel(ax, [1, 2, 2.5, 5, 10])
+
+
+def _name_values(ax: Axes, layout: Layout) -> None:
+    """Write each value below its tick, turned where there is little room."""
+    scaled = layout.scaled()
+    names = [in_words(value) for value in layout.values] or [""]
+    letters = letters_in(size_of(ax)[0] / len(names), points(SMALL))
+    turned: dict[str, Any] = {}
+    if max(map(len, names)) >= letters:
+        names = [shortened(name, TURNED_LETTERS) for name in names]
+        turned = {"rotation": 35, "ha": "right", "rotation_mode": "anchor"}
+    places = 10**scaled if layout.logarithmic else scaled
+    ax.set_xticks(places.tolist(), names, parse_math=False, **turned)
+
+
+def _name_axis(ax: Axes, table: Table, layout: Layout) -> None:
+    """Label the axis with the setting along it."""
+    name = "all runs"
+    if layout.axis is not None:
+        setting = table.settings[layout.axis]
+        name = with_unit(setting, table.unit(setting))
+    text = shortened(name, letters_in(size_of(ax)[0], points()))
+    ax.set_xlabel(text, color=INK, fontsize=points(), parse_math=False)
 
 
 @dataclass(frozen=True)
@@ -153,26 +169,26 @@ class _Drawing:
     layout: Layout
     confidence: float
 
-    def panels(self, row: Sequence[Axes], estimate: Estimate) -> None:
-        """Draw an estimate into its panels, which share their vertical limits."""
-        points, spans = self.table.points(), [np.empty(0)]
-        for ax, (_, lines) in zip(row, self.layout.columns, strict=True):
-            for name, line in lines.items():
-                places = np.array([self.layout.place(point, name) for point in line])
-                runs = [estimate.values(points[point]) for point in line]
-                if not estimate.share:
-                    spans += [self._dots(ax, places, runs, self._entry(name))]
-                spans += [self._means(ax, places, runs, self._entry(name), estimate)]
+    def panel(self, ax: Axes, estimate: Estimate) -> None:
+        """Draw an estimate into its panel."""
+        found, spans = self.table.points(), [np.empty(0)]
+        for name, line in self.layout.lines.items():
+            places = np.array([self.layout.place(point, name) for point in line])
+            runs = [estimate.values(found[point]) for point in line]
+            if not estimate.share:
+                spans += [self._dots(ax, places, runs, self._entry(name))]
+            spans += [self._means(ax, places, runs, self._entry(name), estimate)]
         seen = np.concatenate(spans)
         seen = seen[np.isfinite(seen)]
-        for ax in row:
-            if estimate.share:
-                scale_to_100(ax)
-            else:
-                set_span(ax, seen.min(initial=np.inf), seen.max(initial=-np.inf))
-            if not len(seen):
-                ax.set_yticks([])
-                say(ax, "nothing was measured")
+        if estimate.share:
+            ax.set_ylim(-6, 106)
+            few = size_of(ax)[1] < 5 * 2.4 * points(SMALL)
+            ax.set_yticks([0, 50, 100] if few else [0, 25, 50, 75, 100])
+        else:
+            set_span(ax, seen.min(initial=np.inf), seen.max(initial=-np.inf))
+        if not len(seen):
+            ax.set_yticks([])
+            say(ax, "nothing was measured")
 
     def _dots(self, ax: Axes, places: Float, runs: Sequence[Float], entry: Entry) -> Float:
         """Draw each run as a dot, and return the runs' values."""
@@ -215,13 +231,13 @@ class _Drawing:
 
     def _entry(self, name: str) -> Entry:
         """Return a line's colour, line style and marker, each of which identifies it."""
-        index = self.layout.lines.index(name)
+        index = [*self.layout.lines].index(name)
         dash, marker = DASHES[index % len(DASHES)], MARKERS[index % len(MARKERS)]
         return Entry(name, curve_color(index), dash, 1.3, marker)
 
     def entries(self, above: Axes, shown: Sequence[Estimate]) -> list[Entry]:
         """Return the entries of the legend: several lines, and the meaning of hollow markers."""
-        lines, wide = self.layout.lines, above.figure.bbox.width * 72 / above.figure.dpi
+        lines, wide = [*self.layout.lines], above.figure.bbox.width * 72 / above.figure.dpi
         letters = letters_in(LEGEND * wide, points(SMALL))
         entries = [self._entry(name) for name in (lines if len(lines) > 1 else ())]
         entries = [each._replace(name=shortened(each.name, letters)) for each in entries]

@@ -29,7 +29,7 @@ class Results:
     def __init__(self, study: Study, path: Path | None, *, retry: bool = False) -> None:
         self._study, self._path, self._retry = study, path, retry
         settings, measures = tuple(study.plan.settings), study.measures
-        self._blank = Table(study.title, settings, measures, (), study.units)
+        self._blank = Table(study.title, settings, measures, ())
         self.rows: dict[int, Result] = {}
 
     def __enter__(self) -> Results:

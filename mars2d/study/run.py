@@ -55,7 +55,6 @@ def sweep(
     *,
     control: Callable[[Any], Any] | None = None,
     stop_time: float | None = None,
-    units: Mapping[str, str] | None = None,
     out: str | Path | None = None,
     executor: Executor | None = None,
     workers: int | None = None,
@@ -73,7 +72,6 @@ def sweep(
     measures: names of built-in measures or of functions in the experiment's file, or functions of
     the record; by default the end time, the collisions and, in a game, the capture time. control:
     the law of the team, in place of the experiment's. stop_time: seconds, as another setting.
-    units: of settings and measures by name, where they are not known, as those of fields are.
 
     out: a .csv file to which each row is added when its run is done. Runs whose rows it holds are
     not repeated, except, with `retry`, those with an error. executor: any of concurrent.futures, or
@@ -105,7 +103,7 @@ def sweep(
             raise InputError("stop_time is given twice, once among the settings")
         settings = {**(settings or {}), "stop_time": stop_time}
     plan, listed = Plan(settings_of(settings), seeds_of(seeds)), _listed(measures)
-    study = prepared(experiment, plan, listed, control=control, time_limit=time_limit, units=units)
+    study = prepared(experiment, plan, listed, control=control, time_limit=time_limit)
     for trouble in study.troubles[:3]:
         warn(trouble)
     if study.troubles:

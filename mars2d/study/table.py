@@ -13,7 +13,7 @@ import io
 import re
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from math import nan
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
@@ -26,7 +26,7 @@ from mars2d.core.extras import extra
 from mars2d.core.files import atomic_write
 from mars2d.scenario.options import parse_option
 from mars2d.study.measures import UNITS
-from mars2d.study.units import name_and_unit, unit_of_field, with_unit
+from mars2d.study.units import unit_of_field, with_unit
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -68,15 +68,13 @@ class Result:
 class Table:
     """The results of a study: its runs in order, each with its settings, seed and measures.
 
-    experiment: the name of the experiment. settings, measures: their names, in order. units: those
-    that were stated, by the names of settings and measures.
+    experiment: the name of the experiment. settings, measures: their names, in order.
     """
 
     experiment: str
     settings: tuple[str, ...]
     measures: tuple[str, ...]
     results: tuple[Result, ...]
-    units: Mapping[str, str] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.results)
@@ -91,9 +89,8 @@ class Table:
         return tuple(result for result in self.results if result.error)
 
     def unit(self, name: str) -> str:
-        """Return the unit of a setting or measure: as stated, of its field, or built in; or ""."""
-        known = unit_of_field(name) if name in self.settings else UNITS.get(name, "")
-        return self.units.get(name, known)
+        """Return the unit of a setting that is a field, or of a built-in measure; or ""."""
+        return unit_of_field(name) if name in self.settings else UNITS.get(name, "")
 
     def points(self) -> dict[tuple[Any, ...], tuple[Result, ...]]:
         """Return the runs of each point, in order; a point is the tuple of all settings' values.
@@ -183,8 +180,7 @@ def _shown(value: Any) -> str:
 
 def file_header(table: Table) -> bytes:
     """Return the first line of a table's file."""
-    columns = [*FIRST, *table.settings, SEED, *table.measures, *LAST]
-    return _line(with_unit(name, table.units.get(name, "")) for name in columns)
+    return _line([*FIRST, *table.settings, SEED, *table.measures, *LAST])
 
 
 def file_line(table: Table, result: Result) -> bytes:
@@ -204,12 +200,6 @@ def _line(cells: Iterable[str]) -> bytes:
 
 
 # -- reading files ---------------------------------------------------------------------------------
-
-
-def is_table(path: Path) -> bool:
-    """Return whether a file begins like the table of a study."""
-    with path.open("rb") as file:
-        return file.read(200).decode("utf-8-sig", "replace").startswith(",".join(FIRST) + ",")
 
 
 def parse_table(data: bytes, path: Path) -> Table:
@@ -238,9 +228,8 @@ def _blank(header: list[str]) -> Table:
         expected = f"{', '.join(FIRST)}, settings, seed, measures, {', '.join(LAST)}"
         found = f"; it begins with {shown(','.join(header))}" if header else "; it is empty"
         raise InputError(f"is no table of a study: expected columns {expected}{found}")
-    names, units = zip(*map(name_and_unit, header), strict=True)
-    at, stated = header.index(SEED), {k: unit for k, unit in zip(names, units, strict=True) if unit}
-    return Table("", names[2:at], names[at + 1 : -3], (), stated)
+    at = header.index(SEED)
+    return Table("", tuple(header[2:at]), tuple(header[at + 1 : -3]), ())
 
 
 def _result(cells: list[str], blank: Table, width: int) -> Result:

@@ -11,7 +11,6 @@ from mars2d.core import checks
 from mars2d.core.deadline import Deadline
 from mars2d.core.errors import InputError, shown
 from mars2d.core.usercode import called
-from mars2d.testing.finding import Finding
 from mars2d.testing.subject import Subject
 from mars2d.testing.trial import Placed, small_world
 
@@ -27,15 +26,14 @@ COMMANDS = np.array(
 KEEP = "A drive is the same at each step and for all robots that have it, and keeps nothing"
 
 
-def check_drive(drive: Drive, *, deadline: Deadline | None = None) -> tuple[Finding, ...]:
-    """Try a drive; return hints, and raise CheckError, which lists all that is wrong with it.
+def check_drive(drive: Drive, *, deadline: Deadline | None = None) -> None:
+    """Try a drive; raise CheckError, which lists all that is wrong with it.
 
     Its methods are called with the commands of several robots at once and of each one alone; then
     it drives robots in a small world. deadline: the limit of each control step.
 
     >>> from mars2d import Unicycle
     >>> check_drive(Unicycle())
-    ()
     """
     checks.instance(Drive, "Unicycle()")("check_drive(drive)", drive)
     subject = Subject("drive", drive, "nothing: the field `noise` is there for that", KEEP)
@@ -46,7 +44,7 @@ def check_drive(drive: Drive, *, deadline: Deadline | None = None) -> tuple[Find
         )
     elif subject.check_part(drive, Drive):
         subject.check_runs(lambda: _placed(drive, subject), deadline, small=True)
-    return subject.hints()
+    subject.conclude()
 
 
 def _placed(drive: Drive, subject: Subject) -> Placed:

@@ -21,10 +21,10 @@ from mars2d.sensors.base import Sensor
 from mars2d.testing.addon import check_addon
 from mars2d.testing.controller import check_controller, code_of, is_of_a_team
 from mars2d.testing.drive import check_drive
-from mars2d.testing.finding import CheckError, Finding
 from mars2d.testing.sensor import check_sensor
+from mars2d.testing.subject import CheckError, Finding
 
-FAMILIES: tuple[tuple[str, type[Description], str, Callable[..., tuple[Finding, ...]]], ...] = (
+FAMILIES: tuple[tuple[str, type[Description], str, Callable[..., None]], ...] = (
     ("drive", Drive, "twist", check_drive),
     ("sensor", Sensor, "read", check_sensor),
     ("add-on", Addon, "", check_addon),
@@ -44,15 +44,16 @@ class Case:
 
     name: str
     where: str
-    check: Callable[[], tuple[Finding, ...]] = tuple
+    check: Callable[[], None] = lambda: None
     untried: str = ""
 
     def findings(self) -> tuple[Finding, ...]:
-        """Try it, and return what is wrong, and hints."""
+        """Try it, and return what is wrong."""
         try:
-            return self.check()
+            self.check()
         except CheckError as error:
             return error.findings
+        return ()
 
 
 def trials(
@@ -90,7 +91,7 @@ def _of_class(
     family: str,
     kind: type[Description],
     experiment: Experiment | None,
-    check: Callable[..., tuple[Finding, ...]],
+    check: Callable[..., None],
 ) -> Iterator[Case]:
     """Yield the trials of the objects of a class in the scenario, or of one with its defaults."""
     name, used, inside = f"{family} {kind.__name__}", {}, check

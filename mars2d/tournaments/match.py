@@ -31,8 +31,8 @@ LATE = Verdict(
 class Match:
     """A match to be played: the experiment, its options and seed, and each role's law.
 
-    number: in the tournament, from 1. experiment: a file, or the name of an example. options: those
-    of its round, as for `mars2d.run`. laws: the name of each role's law, as tables show it. files:
+    number: in the tournament, from 1. experiment: a file, or the name of an example. options: as
+    for `mars2d.run`. laws: the name of each role's law, as tables show it. files:
     the paths of these laws; a role without one is played by the experiment's own law. code: what
     these files held when the match was planned, and so what is played; see `law_code`.
     """
@@ -112,7 +112,7 @@ def settled(planned: Iterable[Match], played: Iterable[Played]) -> list[Played]:
     return results
 
 
-def play(match: Match, limits: Limits, replays: bool) -> Played:
+def play(match: Match, limits: Limits, replays: bool = True) -> Played:
     """Play a match, with each law in a process of its own, and return its result.
 
     replays: whether to keep data for a page. Raises InputError if the experiment itself fails,

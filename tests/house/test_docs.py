@@ -44,7 +44,7 @@ from mars2d.geometry import shapes
 from mars2d.scenario import load_scenario
 from mars2d.scenario.examples import examples, examples_folder
 from mars2d.scenario.experiment import open_experiment
-from mars2d.scenario.registry import FAMILIES, members
+from mars2d.scenario.registry import members
 from mars2d.window.run import keys
 from mars2d.world.views import PropView, RobotView
 from tests.cases import each_case
@@ -524,10 +524,6 @@ OWNERS: dict[str, Any] = {
 }  # fmt: skip
 
 
-GROUPS = {f"mars2d.{family}" for family in FAMILIES}
-"""The groups of entry points, which are no modules."""
-
-
 def has(owner: Any, name: str) -> bool:
     """Whether objects of a class, or a module, have an attribute."""
     if hasattr(owner, name):
@@ -547,7 +543,7 @@ def test_names_in_the_text_exist(document):
         named = re.match(r"(\w+)((?:\.\w+)+)", code)
         if named is None or named[1] not in OWNERS:
             continue
-        if (ROOT / "mars2d" / code.partition(" ")[0]).exists() or code in GROUPS:
+        if (ROOT / "mars2d" / code.partition(" ")[0]).exists():
             continue
         owner = OWNERS[named[1]]
         for name in named[2][1:].split("."):

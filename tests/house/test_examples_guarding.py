@@ -131,13 +131,13 @@ def test_the_shortest_way_round_a_pillar_is_that_of_a_fine_polygon():
     shapely = pytest.importorskip("shapely")
     module = open_module(examples()["round_a_pillar"])
     rng = np.random.default_rng(0)
-    disc = shapely.Point(0, 0).buffer(module.RADIUS, quad_segs=400)
+    disc = shapely.Point(0, 0).buffer(1.75, quad_segs=400)
     for _ in range(20):
         places = [
             np.array(module.circle(angle, radius))
             for angle, radius in zip(rng.uniform(-pi, pi, 2), rng.uniform(1.76, 4, 2), strict=True)
         ]
-        way = shapely.LineString(module.shortest(*places))
+        way = shapely.LineString(module.shortest(*places, 1.75))
         assert way.buffer(-0).length < 12
         if shapely.LineString(places).intersects(disc.buffer(-1e-3)):
             hull = shapely.MultiPoint([*disc.exterior.coords, *places]).convex_hull.exterior

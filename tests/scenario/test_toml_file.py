@@ -1,8 +1,10 @@
 """Scenario files: what is saved comes back, what is wrong is pointed at, nothing else is raised."""
 
 import re
+import tomllib
 from pathlib import Path
 
+import jsonschema
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -12,9 +14,14 @@ from mars2d import Addon, InputError, Robot, Scenario, Sensor
 from mars2d.addons import Density, Floor, Map
 from mars2d.bodies.props import Ball, Box, Gate
 from mars2d.cli import command_line as cli
-from mars2d.scenario import load_scenario, save_scenario
+from mars2d.scenario import load_scenario, save_scenario, serialize
+from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment
+from mars2d.scenario.schema import schema
 from tests.cases import each_case
+from tests.worlds import without_laws
+
+CHECKER = jsonschema.Draft202012Validator(schema())
 
 EVERYTHING = (Path(__file__).parent / "everything.toml").read_text(encoding="utf-8")
 
@@ -55,6 +62,20 @@ def test_all_kinds_of_parts_come_back(tmp_path):
     assert saved(again, tmp_path)[0] == text
     for place in ("robots", "props", "joints", "material_pairs", "addons"):
         assert len(getattr(scenario, place)) == EVERYTHING.count(f"\n[[{place}]]\n") > 1
+
+
+@pytest.mark.slow
+@each_case("name", examples())
+def test_an_example_is_written_but_for_its_code(name, tmp_path):
+    experiment = open_experiment(name)
+    text, missing, again = saved(experiment.scenario, tmp_path, experiment.control)
+    CHECKER.validate(tomllib.loads(text))
+    kept, lost = serialize.without_code(experiment.scenario)
+    assert without_laws(again) == without_laws(kept)
+    assert set(lost) <= set(missing)
+    assert all(name in text for name in lost)
+    named = [line for line in text.splitlines() if ".py" not in line]  # paths stay whole
+    assert max(map(len, named)) <= 100
 
 
 def test_the_file_of_all_kinds_is_laid_out_as_it_is_saved(tmp_path):

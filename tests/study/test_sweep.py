@@ -140,17 +140,6 @@ def test_a_run_that_takes_too_long_is_a_row_that_names_the_line(here):
     assert (ends.error, bool(ends.digest)) == ("", True)
 
 
-def test_units_are_stated_with_the_sweep_or_with_its_table(here, capsys):
-    words = ["--set", "gain=1", "--measure", "far", "--workers", "1", "--out", "r.csv"]
-    assert main(["sweep", "drift.py", *words, "--unit", "far=m"]) == 0
-    assert main(["sweep", "r.csv", "--unit", "gain=1/s"]) == 0
-    first, again = capsys.readouterr().out.split("table:  r.csv\n", 1)
-    assert "far [m]" in first
-    assert "gain = 1 1/s" in again
-    assert "far [m]" in again
-    assert sweep({"gain": [1]}, 1, out="r.csv", units={"far": "m"}).units == {"far": "m"}
-
-
 # -- what stops after a few runs -------------------------------------------------------------------
 
 
@@ -392,18 +381,6 @@ def test_interrupted_and_killed_it_goes_on_and_the_file_is_that_of_one_worker(he
     assert runs(here) == 40 - there
     sweep({"gain": [0.5, 1.0]}, 20, out="one.csv")
     assert (here / "r.csv").read_bytes() == (here / "one.csv").read_bytes()
-
-
-def test_a_row_is_run_again_alone(here, capsys):
-    sweep({"gain": [0.5, 1.0]}, 2, ["far", "word"], out="sweep.csv")
-    capsys.readouterr()
-    assert main(["sweep", "--row", "3", "--view", "--html", "run.html", "--record", "run.npz"]) == 0
-    out, errors = capsys.readouterr()
-    assert out.startswith("row 3 of sweep.csv: drift.py, gain = 1.0, seed 0\n")
-    assert out.endswith(", the same\nrecord: run.npz\npage:   run.html\n")
-    assert "there is no display, so this runs without a window" in errors
-    assert mars2d.load("run.npz").digest == Table.load("sweep.csv").results[2].digest
-    assert (here / "run.html").stat().st_size > 10_000
 
 
 def test_a_table_that_is_there_is_summed_up_compared_and_drawn(here, capsys):

@@ -22,7 +22,6 @@ def rules_of(game, **options) -> Rules:
 
 def tournament_of(
     matches: Sequence[Played],
-    settings: tuple[str, ...] = (),
     title: str = "Chase",
     experiment: str = "chase.py",
 ) -> Tournament:
@@ -31,5 +30,5 @@ def tournament_of(
     game = Game({"pursuer": ["red"], "evader": ["blue"]})
     rules = replace(rules_of(Scenario(robots=robots, addons=[game])), title=title)
     planned = tuple(each.match for each in matches)
-    schedule = Schedule(experiment, ROLES, settings, LIMITS, planned, frozenset(), rules)
+    schedule = Schedule(experiment, ROLES, LIMITS, planned, frozenset(), rules)
     return Tournament(schedule, tuple(matches))

@@ -1,18 +1,9 @@
-"""The rules of a game in words, and the page that shows them to a class."""
-
-from dataclasses import replace
-
-import pytest
+"""The rules of a game in words."""
 
 from mars2d import Robot, Scenario
 from mars2d.addons import Game
-from mars2d.cli.command_line import main
-from mars2d.tournaments.page import rules_page
-from tests.browser import Tab
 from tests.cases import each_case
 from tests.tournaments.leagues import rules_of
-
-EVIL = "<script>alert(1)</script> & \"quoted\" 'too'"
 
 
 def test_rules_are_those_of_the_games_file():
@@ -57,33 +48,3 @@ def test_a_pursuit_says_what_is_counted(fields, hunter, evader, counted):
     assert game.aim("wolf", scenario) == hunter
     assert game.aim("sheep", scenario).startswith(evader)
     assert counted in game.counts
-
-
-@pytest.mark.nightly
-@each_case("size", [(1280, 900), (390, 800)])
-@each_case("scheme", ["light", "dark"])
-def test_the_page_needs_nothing_else_and_fits_at_any_width(browser, tmp_path, size, scheme):
-    path = tmp_path / "rules.html"
-    rules = rules_of("sumo")
-    evil = replace(rules, story=f"{EVIL}\n\nNews: {EVIL}", facts={"Time": EVIL}, title=EVIL)
-    path.write_text(rules_page(evil), encoding="utf-8")
-    tab = Tab(browser, size, color_scheme=scheme)
-    tab.page.goto(path.as_uri())
-    assert tab.page.locator("h1").inner_text() == f"{EVIL}: the rules"
-    assert tab.page.locator(".story p").all_inner_texts() == [EVIL, f"News: {EVIL}"]
-    assert tab.page.evaluate("document.documentElement.scrollWidth") <= size[0]
-    assert tab.page.locator("main > dl dd").inner_text() == EVIL
-    assert tab.page.locator("img").evaluate("image => image.naturalWidth") > 100
-    dark = tab.page.evaluate("document.documentElement.classList.contains('dark')")
-    assert dark == (scheme == "dark")
-    assert tab.complaints == []
-    assert tab.asked == [path.as_uri()]
-    tab.close()
-
-
-def test_the_command_writes_the_page_without_any_law(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    assert main(["tournament", "sumo", "--rules", "rules.html", "--tick-limit", "3"]) == 0
-    assert capsys.readouterr().out.strip() == "rules: rules.html"
-    assert "more than 3 s for one step" in (tmp_path / "rules.html").read_text(encoding="utf-8")
-    assert [path.name for path in tmp_path.iterdir()] == ["rules.html"]

@@ -197,6 +197,13 @@ class Pair:
         return min(h, time_to_close(room, closing, turn))
 
     @cython.cfunc
+    def turns(self) -> cython.double:
+        """Return how fast the normal turns, rad/s: as the line between the middles of discs."""
+        x: cython.double = self.b.vx - self.a.vx
+        y: cython.double = self.b.vy - self.a.vy
+        return 0.0 if self.is_wall else abs(x * self.normal_y - y * self.normal_x) / self.radii
+
+    @cython.cfunc
     def lay(self, room: cython.double) -> cython.void:
         """Note at corners which faces of two pieces go on in each other, but for this room."""
 
@@ -451,6 +458,13 @@ class PiecePair(Pair):
                 place = place + speed * h - turn * half
             back = min(back, place)
         return back - front + room >= 0.0
+
+    @cython.cfunc
+    def turns(self) -> cython.double:
+        """Return how fast the normal turns, rad/s: with the body whose edge parts them."""
+        if self.is_wall and self.of_second:
+            return 0.0
+        return abs(self.b.spin if self.of_second else self.a.spin)
 
     @cython.cfunc
     def lay(self, room: cython.double) -> cython.void:

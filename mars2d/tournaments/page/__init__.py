@@ -10,6 +10,7 @@ from pathlib import Path
 from mars2d.core.errors import one_line
 from mars2d.core.files import atomic_write
 from mars2d.output.pages.replay import colors, filled, player
+from mars2d.scenario.options import options_in_words
 from mars2d.tournaments.league import UNPROTECTED, Tournament
 from mars2d.tournaments.page.rules import rules_part
 from mars2d.tournaments.page.tables import (
@@ -20,9 +21,8 @@ from mars2d.tournaments.page.tables import (
     standing_tables,
 )
 from mars2d.tournaments.page.words import escaped, read, terms
-from mars2d.tournaments.rules import Rules
 
-__all__ = ["MAX_REPLAYS_SIZE", "league_page", "rules_page", "save_page"]
+__all__ = ["MAX_REPLAYS_SIZE", "league_page", "save_page"]
 
 MAX_REPLAYS_SIZE = 40_000_000
 """How many characters the replays of a page may have; a larger page is slow to load."""
@@ -55,18 +55,13 @@ def league_page(tournament: Tournament) -> str:
     return _page(title, filled(read("league.html"), words), read("league.js"))
 
 
-def rules_page(rules: Rules) -> str:
-    """Return the rules of a game as the text of an HTML file, with a picture of the start."""
-    return _page(f"{rules.title}: the rules", f'<main class="rules">{rules_part(rules)}</main>')
-
-
 def save_page(page: str, path: Path) -> None:
     """Write a page to a file. Raises InputError if it can't be written."""
     with atomic_write(path) as file:
         file.write(page.encode("utf-8", errors="replace"))
 
 
-def _page(title: str, body: str, script: str = "") -> str:
+def _page(title: str, body: str, script: str) -> str:
     """Return a page. script: what it runs besides."""
     words = {
         "title": escaped(title),
@@ -85,12 +80,9 @@ def _player(title: str, inside: str) -> str:
 
 def _facts(tournament: Tournament, left_out: list[int]) -> dict[str, str]:
     """Return the facts about a tournament; left_out: the matches without their replays."""
-    schedule, matches, rounds = tournament.schedule, tournament.matches, [*tournament.rounds()]
+    schedule, matches = tournament.schedule, tournament.matches
     laws = [tournament.laws(role) for role in schedule.roles]
     playing = [f"{len(each)} as {role}" for each, role in zip(laws, schedule.roles, strict=True)]
-    options = schedule.matches[0].options
-    always = [f"{name} = {options[name]}" for name in options if name not in schedule.settings]
-    several = len(rounds) > 1
     seeds = sorted({played.match.seed for played in matches})
     in_a_row = len(seeds) > 2 and seeds[-1] - seeds[0] == len(seeds) - 1
     failed = {
@@ -101,8 +93,7 @@ def _facts(tournament: Tournament, left_out: list[int]) -> dict[str, str]:
     return {
         "Experiment": Path(schedule.experiment).name,
         "Laws": ", ".join(playing),
-        "Rounds": "; ".join(rounds) if several else "",
-        "Settings": ", ".join(always if several else filter(None, [*rounds, *always])),
+        "Options": options_in_words(schedule.matches[0].options),
         "Seeds": f"{seeds[0]} to {seeds[-1]}" if in_a_row else ", ".join(map(str, seeds)),
         "Matches": ", ".join(
             [str(len(matches)), *(f"{count} {what}" for what, count in failed.items() if count)]

@@ -163,15 +163,13 @@ def match_table(tournament: Tournament) -> str:
     """Return the table of all matches, each with a button for its replay."""
     schedule = tournament.schedule
     columns = {
-        "match": "head", **({"round": "round"} if len(tournament.rounds()) > 1 else {}),
-        "seed": "seed number", **dict.fromkeys(schedule.roles, "player"),
+        "match": "head", "seed": "seed number", **dict.fromkeys(schedule.roles, "player"),
         "winner": "winner", "free for": "time number", "how it ended": "ending",
     }  # fmt: skip
     rows = []
     for played in tournament.matches:
         cells = {
             "match": WATCH.format(played.match.number),
-            "round": escaped(schedule.round_of(played.match)),
             "seed": str(played.match.seed),
             "winner": _winner(played),
             "free for": NONE if (t := played.payoff) is None else f"{t:.2f} s",
@@ -185,16 +183,13 @@ def match_table(tournament: Tournament) -> str:
 
 
 def choices(tournament: Tournament) -> str:
-    """Return the lists for choosing matches by laws and rounds."""
-    laws, rounds = tournament.laws(*tournament.schedule.roles), tournament.rounds()
-    lists: dict[str, Iterable[str]] = {"Law": laws, "against": laws}
-    if len(rounds) > 1:
-        lists["Round"] = rounds
+    """Return the lists for choosing matches by laws."""
+    laws = tournament.laws(*tournament.schedule.roles)
+    every = "".join(f'<option value="{escaped(e)}">{escaped(e)}</option>' for e in laws)
     return "\n".join(
-        f'<label>{words} <select id="{words.lower()}"><option value="">all</option>'
-        + "".join(f'<option value="{escaped(e)}">{escaped(e)}</option>' for e in values)
-        + "</select></label>"
-        for words, values in lists.items()
+        f'<label>{words} <select id="{words.lower()}"><option value="">all</option>{every}'
+        "</select></label>"
+        for words in ("Law", "against")
     )
 
 

@@ -144,28 +144,14 @@ class Page:
         for k, (card, place) in enumerate(self.places):
             if self._seen(place).colliderect(self._area):
                 self._draw_card(surface, painter, card, self._seen(place), chosen=k == self.chosen)
-        bar = self.bar(painter.ui)
-        if bar is not None:
+        area, ui = self._area, painter.ui
+        if self._length > area.height:
+            long = max(round(30 * ui), area.height * area.height // self._length)
+            way = self._scroll / (self._length - area.height)
+            top = area.top + round(way * (area.height - long))
+            bar = pygame.Rect(area.right - round(11 * ui), top, round(7 * ui), long)
             painter.panel(surface, bar, painter.theme.track, bar.width / 2)
         surface.set_clip(None)
-
-    def bar(self, ui: float) -> pygame.Rect | None:
-        """Return the place of the scroll bar, if there is more than fits."""
-        area = self._area
-        if self._length <= area.height:
-            return None
-        long = max(round(30 * ui), area.height * area.height // self._length)
-        way = self._scroll / (self._length - area.height)
-        top = area.top + round(way * (area.height - long))
-        return pygame.Rect(area.right - round(11 * ui), top, round(7 * ui), long)
-
-    def drag_bar(self, y: float, ui: float) -> None:
-        """Put the middle of the scroll bar at a height, pixels."""
-        bar = self.bar(ui)
-        if bar is not None:
-            way = (y - self._area.top - bar.height / 2) / max(1, self._area.height - bar.height)
-            self._scroll = way * (self._length - self._area.height)
-            self.scroll(0)
 
     def _seen(self, place: pygame.Rect) -> pygame.Rect:
         return place.move(self._area.left, self._area.top - round(self._scroll))

@@ -64,25 +64,6 @@ def test_how_it_is_read_is_set_by_options_of_the_map(folder):
     assert open_experiment(path, options).scenario.bounds == (-2, 12, -2, 8)
 
 
-@pytest.mark.parametrize(
-    ("pose", "said"),
-    [
-        ("(0.05, 2, 0)", "robot0 has room at robots.0.pose=(0.750, 2.000, 0)"),
-        ("(2, -4, 1)", "robot0 has room at robots.0.pose=(2.000, 0.750, 1)"),
-    ],
-)
-def test_a_robot_that_would_stand_in_a_wall_or_outside_is_told_where_there_is_room(
-    folder, pose, said
-):
-    path = experiment(folder, f"scenario = Scenario(robots=[Robot(pose={pose}, diameter=0.3)])")
-    with pytest.raises(InputError) as caught:
-        open_experiment(path, {"map": "room.wkt"})
-    assert str(caught.value).startswith("walk.py: Robot.pose of robot0 = (")
-    assert str(caught.value).endswith(said)
-    place = eval(said.partition("=")[2])
-    assert open_experiment(path, {"map": "room.wkt", "robots.0.pose": place})
-
-
 def test_the_parameter_map_of_a_scenario_function_gets_the_value(folder):
     (folder / "lab" / "own.wkt").write_text("LINESTRING (0 0, 1 0)")
     path = experiment(
