@@ -82,20 +82,12 @@ class Filming:
 
 
 def _fitted(picture: pygame.Surface, film: pygame.Surface | None) -> pygame.Surface:
-    """Return a picture in the middle of a film's frame, as large as fits.
+    """Return a picture as a film's frame, whose sides are even; a larger or smaller one is scaled.
 
-    film: a frame of its size; None for the first one, which has the size of the picture, made even.
+    film: a frame of its size; None for the first one, which has the size of the picture.
     """
     import pygame
 
-    across, down = picture.get_size()
-    if film is None:
-        film = pygame.Surface((across + across % 2, down + down % 2), 0, 32)
-    width, height = film.get_size()
-    if max(abs(width - across), abs(height - down)) > 1:  # not only made even
-        scale = min(width / across, height / down)
-        size = max(round(scale * across), 1), max(round(scale * down), 1)
-        picture = pygame.transform.smoothscale(picture, size)
-    film.fill("black")
-    film.blit(picture, picture.get_rect(center=film.get_rect().center))
-    return film
+    wide, high = picture.get_size()
+    size = (wide + wide % 2, high + high % 2) if film is None else film.get_size()
+    return pygame.transform.smoothscale(picture, size)

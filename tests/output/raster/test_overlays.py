@@ -10,7 +10,7 @@ import pygame
 import pytest
 
 from mars2d import Robot, Scenario, Unicycle
-from mars2d.core.scene import Arrow, Line
+from mars2d.core.scene import Arrow
 from mars2d.output.layers.legend import legends
 from mars2d.output.layers.neighbours import neighbours
 from mars2d.output.layers.table import Layers
@@ -65,17 +65,6 @@ def test_what_stands_or_creeps_has_no_arrow_and_what_flies_a_bounded_one():
     arrow, *cut = velocities(frame).shapes
     assert len(cut) == 2, "the two strokes that say that it is shortened"
     assert arrow.tip[0] - arrow.tail[0] == pytest.approx(speed_scale(frame.scenario).longest)
-
-
-@each_case("omega", [1.0, -2.0, 100.0])
-def test_an_arc_goes_from_the_heading_to_that_of_a_second_later(omega):
-    (arc, head) = velocities(frame_of([(1, 2, 0.5)], (0, 0, omega))).shapes
-    assert isinstance(arc, Line)
-    assert isinstance(head, Arrow)
-    heading, turn = 0.5 + 0.1 * omega, np.clip(omega, -5, 5)
-    for place, angle in ((arc.points[0], heading), (head.tip, heading + turn)):
-        x, y = np.array(place) - (1, 2)
-        assert (np.arctan2(y, x) - angle + pi) % (2 * pi) - pi == pytest.approx(0, abs=1e-9)
 
 
 def test_circles_show_how_tightly_a_robot_can_turn_at_its_speed():
