@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from mars2d.core.errors import InputError, counted
 from mars2d.output.figures.figure import new_figure, save_drawing, show_in_notebooks
-from mars2d.output.figures.labels import shortened
 from mars2d.output.figures.legend import Entry
 from mars2d.output.figures.panels import (
     PANEL,
@@ -24,6 +23,7 @@ from mars2d.output.figures.panels import (
     say,
     set_span,
     short_number,
+    shortened,
     size_of,
 )
 from mars2d.output.figures.style import DASHES, INK, MUTED, SMALL, curve_color, points

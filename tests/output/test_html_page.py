@@ -15,11 +15,11 @@ from mars2d import Robot, Scenario
 from mars2d.addons import Communication, Map, Voronoi
 from mars2d.bodies.props import Box
 from mars2d.output.pages.replay import page
-from mars2d.output.raster.theme import contrast
 from mars2d.record.interventions import Steer
 from mars2d.record.marks import marks_of
 from mars2d.sensors import Proximity, RangeFinder
 from tests.browser import Tab, differing
+from tests.colors import contrast
 
 REFERENCES = Path(__file__).parent / "references"
 EVIL = "<img src=x onerror=alert(1)>"

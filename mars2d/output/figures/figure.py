@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from io import BytesIO
-from math import ceil, log
+from math import ceil
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -95,7 +95,7 @@ def plot_snapshots(record: Rows, times: ArrayLike, *, layers: Layers | None = No
         layers or layers_of(scenario),
         robots_of(scenario),
     )
-    cols = _columns(len(rows), view.width / view.height)
+    cols = min(len(rows), 4)
     axes = new_axes(view, len(rows), cols, legend_width(entries))
     add_legend(axes[min(cols, len(axes)) - 1], entries, **BESIDE)
     for k, (ax, row) in enumerate(zip(axes, rows, strict=True)):
@@ -318,16 +318,6 @@ def robots_of(scenario: Scenario) -> list[Entry]:
         for color, those in alike.items()
     }
     return [Entry(plain_name(name), color, "", 1.5, "o") for color, name in names.items()]
-
-
-def _columns(count: int, ratio: float) -> int:
-    """Return the number of columns for panels whose ratio of width to height is `ratio`."""
-
-    def fault(cols: int) -> float:
-        lines = ceil(count / cols)
-        return abs(log(cols * ratio / lines / 1.6)) + 0.3 * (cols * lines - count)
-
-    return min(range(1, count + 1), key=fault)
 
 
 def show_in_notebooks(*axes: Axes) -> None:

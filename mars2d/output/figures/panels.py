@@ -17,7 +17,6 @@ from mars2d.output.figures.figure import (
     show_in_notebooks,
     style_ticks,
 )
-from mars2d.output.figures.labels import shortened, wrapped
 from mars2d.output.figures.legend import Entry, add_legend
 from mars2d.output.figures.style import GRID, INK, LINE, MUTED, SMALL, TITLE, points
 from mars2d.output.signals import thinned
@@ -113,8 +112,9 @@ def caption(ax: Axes, name: str, unit: str) -> None:
     text = f"{name} [{unit}]" if unit else name
     if len(text) > CAPTION_LETTERS:
         lines = max(2, int(CAPTION_HEIGHT * size_of(ax)[1] / (1.2 * points())))
-        name = shortened(name, lines * CAPTION_LETTERS)
-        text = "\n".join([wrapped(name, CAPTION_LETTERS), *([f"[{unit}]"] if unit else [])])
+        short = shortened(name, lines * CAPTION_LETTERS)
+        parts = textwrap.wrap(short, CAPTION_LETTERS)
+        text = "\n".join([*parts, *([f"[{unit}]"] if unit else [])])
     ax.set_ylabel(
         text, color=INK, fontsize=points(), rotation=0, ha="right", va="center",
         linespacing=1.2, parse_math=False,
@@ -225,3 +225,16 @@ def size_of(ax: Axes) -> tuple[float, float]:
     """Return the width and the height of axes, points; approximate before the layout."""
     box, points = ax.get_window_extent(), 72 / ax.figure.dpi
     return box.width * points, box.height * points
+
+
+def shortened(text: str, letters: int) -> str:
+    """Return a text on one line, without its middle if it has more letters than this.
+
+    >>> shortened("laws/group_a/pursuit.py", 16)
+    'laws/g…ursuit.py'
+    """
+    text = " ".join(text.split())
+    if len(text) <= letters:
+        return text
+    start = (letters - 1) * 2 // 5
+    return f"{text[:start]}…{text[len(text) - (letters - 1 - start) :]}"

@@ -77,26 +77,6 @@ def mixed(color: str, ground: str, share: float) -> str:
     return "#" + "".join(f"{round(g - (g - c) * share):02x}" for c, g in pairs)
 
 
-def contrast(color: str, ground: str) -> float:
-    """Return the contrast of two colours as WCAG 2 defines it: 1 for none, 4.5 to read by, to 21.
-
-    >>> contrast("#000000", "#ffffff")
-    21.0
-    """
-    high, low = sorted((luminance(color), luminance(ground)), reverse=True)
-    return (high + 0.05) / (low + 0.05)
-
-
-LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
-
-
-def luminance(color: str) -> float:
-    """Return the relative luminance of ``#rrggbb``, from 0 to 1, as WCAG 2 defines it."""
-    values = np.array(rgb(color))
-    light = np.where(values <= 0.04045, values / 12.92, ((values + 0.055) / 1.055) ** 2.4)
-    return float(light @ LUMINANCE)
-
-
 @lru_cache(maxsize=4096)
 def on_dark(color: str, paper: str) -> str:
     """Return a colour converted for dark paper: white becomes the paper itself; opacity stays."""

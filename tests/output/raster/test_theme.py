@@ -14,10 +14,10 @@ from mars2d.output.raster.stage import Stage
 from mars2d.output.raster.theme import (
     DARK,
     LIGHT,
-    contrast,
     mixed,
 )
 from tests.cases import each_case
+from tests.colors import contrast
 from tests.window.circling import Circling
 from tests.window.written import THEMES, pixels
 
