@@ -132,10 +132,3 @@ def test_of_many_the_least_the_mean_and_the_most_have_a_curve():
     np.testing.assert_allclose(nearest[0], np.array([3, 3, 5, 7, 9]) - 0.3)
     first = [line.get_ydata()[0] for line in record.plot_distances().lines[:3]]
     np.testing.assert_allclose(first, [2.7, 5.1, 8.7])
-
-
-def test_of_a_long_run_some_rows_are_drawn_and_the_axis_says_so(monkeypatch):
-    monkeypatch.setattr("mars2d.output.figures.distances.MAX_DISC_GAPS", 4)
-    ax = run(robots=[Robot(), Robot(pose=(1, 0, 0))], sampling_time=0.1).plot_distances()
-    assert len(ax.lines[0].get_xdata()) == 4
-    assert ax.get_ylabel().endswith("[m, every 3rd row]")

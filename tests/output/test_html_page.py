@@ -341,22 +341,15 @@ def test_a_robot_is_picked_where_it_is_drawn_and_its_numbers_are_those_of_the_re
     assert tab.page.locator("#panel").is_hidden()
 
 
-def test_a_body_is_picked_by_list_and_followed(tab):
+def test_a_body_is_picked_by_list(tab):
     tab.page.select_option("#bodies", label="crate")
     assert tab.text("#panel .kind") == "box"
     tab.page.locator("#picture").click(position={"x": 20, "y": 20})
     tab.page.select_option("#bodies", label=EVIL)
     tab.settle()
     assert tab.text("#panel h2") == EVIL
-    show_only(tab)
-    tab.press("l", "PageDown")
-    assert tab.is_on("#follow")
-    box = tab.page.locator("#picture").bounding_box()
-    center = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-    assert tab.middle_of(ORANGE) == pytest.approx(center, abs=6)
     tab.press("Escape")
     assert tab.page.locator("#panel").is_hidden()
-    assert not tab.is_on("#follow")
 
 
 # -- looks ----------------------------------------------------------------------------------------
@@ -487,7 +480,7 @@ def test_a_screen_reader_finds_the_controls(tab):
     for line in (
         "heading", 'slider "Time"', 'button "Play"', 'button "One step on"', 'button "Zoom in"',
         'combobox "Speed"', 'combobox "Pick a robot or prop"', 'button "Help"', "status",
-        'complementary "What is picked"', 'button "Follow"', 'img "Push & ',
+        'complementary "What is picked"', 'img "Push & ',
     ):  # fmt: skip
         assert line in tree, line
     assert "3 robots and 1 prop, seen from above at 0.0 s" in tree

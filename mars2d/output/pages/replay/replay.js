@@ -12,7 +12,6 @@ const ACTIONS = [
   [["A"], "choose layers", (page) => page.openLayers(find("layers").hidden)],
   [["Shift+arrows"], "move the picture"],
   [["F"], "fit all into the view", (page) => page.fit()],
-  [["L"], "follow the selection", (page) => page.look.picked >= 0 && page.setFollow(!page.follow)],
   [["D"], "dark or light", (page) => page.setDark(!page.look.dark)],
   [["Esc"], "clear the selection", (page) => (find("layers").hidden ? page.pick(-1) : page.openLayers(false))],
   [["F1", "?"], "this help", (page) => find("helping").showModal()],
@@ -23,7 +22,7 @@ const LABELS = {
 }; // by what the browser calls them
 const BUTTONS = { // by their ids
   play: "Space", first: "Home", last: "End", back: "←", ahead: "→", loop: "J", fit: "F", dark: "D",
-  follow: "L", help: "F1", show: "A",
+  help: "F1", show: "A",
 };
 const ARROWS = { ArrowLeft: [40, 0], ArrowRight: [-40, 0], ArrowUp: [0, 40], ArrowDown: [0, -40] };
 
@@ -57,7 +56,6 @@ class Replay {
     this.marks = new Marks(find("marks"), record, find("ticks"));
     this.look = Object.fromEntries(record.layers.map(({ name, on }) => [name, on]));
     this.look.picked = -1;
-    this.follow = false;
     this.drawn = "";
     this.said = 0;
     this.layers = record.layers.filter((layer) => layer.switch && this.has(layer.name));
@@ -207,13 +205,11 @@ class Replay {
         const now = spread();
         picture.camera.pan(now.x - old.x, now.y - old.y);
         if (old.far > 0) picture.camera.zoom(now.far / old.far, now.x, now.y);
-        this.setFollow(false);
       } else {
         held.set(event.pointerId, here);
         if (moved > (event.pointerType === "mouse" ? 3 : 8)) {
           canvas.classList.add("dragged");
           picture.camera.pan(here.x - before.x, here.y - before.y);
-          this.setFollow(false);
         }
       }
     });
@@ -257,7 +253,6 @@ class Replay {
     if (shift && key in ARROWS) {
       return () => {
         this.picture.camera.pan(...ARROWS[key]);
-        this.setFollow(false);
       };
     }
     const layer = this.layers.find((each) => each.key === key.toLowerCase());
@@ -295,7 +290,6 @@ class Replay {
   }
 
   fit() {
-    this.setFollow(false);
     this.picture.camera.fit();
   }
 
@@ -330,15 +324,9 @@ class Replay {
   pick(body) {
     if (body === this.look.picked) return;
     this.look.picked = body;
-    if (body < 0) this.setFollow(false);
     find("bodies").value = body;
     this.panel.pick(body);
     this.say(body < 0 ? "Nothing is picked" : `${this.record.bodies[body].name} is picked`);
-  }
-
-  setFollow(follow) {
-    this.follow = follow;
-    find("follow").setAttribute("aria-pressed", follow);
   }
 
   // Tell a screen reader.
@@ -365,13 +353,9 @@ class Replay {
 
   show(now) {
     const { clock, picture, look } = this, { camera } = picture;
-    const state = () => JSON.stringify([clock.position, clock.playing, camera.key, look, this.follow]);
+    const state = () => JSON.stringify([clock.position, clock.playing, camera.key, look]);
     if (this.drawn === state()) return;
     picture.move(clock.position);
-    if (this.follow && look.picked >= 0) {
-      camera.centerOn(picture.x[look.picked], picture.y[look.picked]);
-      camera.moved = true;
-    }
     picture.draw(look);
     this.drawn = state();
     this.legend.draw(look, camera, picture.ratio, this.layers.map(({ name }) => name));
