@@ -48,7 +48,7 @@ class Signal:
 
     values: (T, k), one column for each of the `bodies`; (T, k, m) for readings of several numbers.
     held: "post" if a value holds until the next row, "pre" if it has
-    held since the row before, "" if it belongs to an instant. bearings: (beams,) degrees, if known.
+    held since the row before, "" if it belongs to an instant.
     """
 
     name: str
@@ -56,7 +56,6 @@ class Signal:
     values: NDArray[Any]
     bodies: tuple[int, ...]
     held: str = ""
-    bearings: Float | None = None
     wraps: bool = False
     """Whether the values are angles, which jump from pi to -pi."""
     curves: tuple[str, ...] = ()
@@ -244,28 +243,16 @@ def _readings(
         raise InputError(f"columns: {name!r}: none of the robots chosen has it; {have} do")
     order = sorted(mine, key=lambda k: robots.index(carriers[k]))
     sensor = record.scenario.robots[carriers[order[0]]].sensor(key)
-    whole = Signal(
-        key, "", record.sensors[key][:, order], tuple(carriers[k] for k in order),
-        bearings=_bearings(sensor, record.sensors[key].shape[2:]),
-    )  # fmt: skip
+    whole = Signal(key, "", record.sensors[key][:, order], tuple(carriers[k] for k in order))
     found = _by_quantity(whole, sensor, name, parts)
     for signal in found:
         shape = signal.values.shape[2:]
-        if len(shape) > 1 or sum(shape) > MAX_NUMBERS:
+        if len(shape) > 1 or (sum(shape) > MAX_NUMBERS and signal.values.dtype != np.bool_):
             raise InputError(
                 f"columns: {signal.name!r} has readings of shape {shape}: choose a part of them, "
                 f"as '{signal.name}.0'"
             )
     return found
-
-
-def _bearings(sensor: Sensor | None, shape: tuple[int, ...]) -> Float | None:
-    """Return the bearings of a reading's beams, degrees, if they are evenly spaced."""
-    angles = np.asarray(getattr(sensor, "angles", ()))
-    if angles.ndim != 1 or len(angles) < 2 or angles.shape != shape[:1]:
-        return None
-    even = np.linspace(angles[0], angles[-1], len(angles))
-    return np.degrees(even) if np.allclose(angles, even, atol=1e-9) else None
 
 
 def _by_quantity(whole: Signal, sensor: Sensor | None, name: str, parts: list[str]) -> list[Signal]:
@@ -310,11 +297,7 @@ def _of_kind(signal: Signal, quantity: Quantity) -> Signal:
 
 def _indexed(signal: Signal, index: int) -> Signal:
     """Return one entry of a reading's first axis, for example one beam."""
-    bearing = "" if signal.bearings is None else f" ({signal.bearings[index]:.4g}°)"
-    return replace(
-        signal, name=f"{signal.name}.{index}{bearing}", values=signal.values[:, :, index],
-        bearings=None,
-    )  # fmt: skip
+    return replace(signal, name=f"{signal.name}.{index}", values=signal.values[:, :, index])
 
 
 def without_nothing(signal: Signal) -> Signal:

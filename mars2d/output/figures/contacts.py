@@ -53,7 +53,7 @@ def plot_contacts(record: Rows, axes: Sequence[Axes] | None = None) -> list[Axes
     the normal forces of all pairs; it is left out where no forces act, for example with physics
     "stop".
 
-    axes: one for the upper panel, or two; by default those of a new figure. Returns the axes. If
+    axes: one for each panel; by default those of a new figure. Returns the axes. If
     there were no contacts, the first says so. Raises InputError for a record without rows.
     """
     check_rows(record)
@@ -65,7 +65,7 @@ def plot_contacts(record: Rows, axes: Sequence[Axes] | None = None) -> list[Axes
     chosen = _chosen(touches, group, len(pairs), ROWS)
     line = np.full(len(pairs), -1)
     line[chosen] = np.arange(len(chosen))
-    names = ["pairs", "normal force"][: _panel_count(axes, force=force)]
+    names = ["pairs", "normal force"] if force else ["pairs"]
     tall = max(0.9, 0.17 * (len(chosen) + 1))
     axes = panels(record, axes, names, [tall, 1.0][: len(names)])
     if len(chosen):
@@ -105,13 +105,6 @@ def normal_force(record: Rows) -> Float:
 def pair_name(scenario: Scenario, a: int, b: int) -> str:
     """Return the names of a pair of bodies, joined by a dash."""
     return " \N{EN DASH} ".join(plain_name(scenario.body_name(body)) for body in (a, b))
-
-
-def _panel_count(axes: Sequence[Axes] | None, *, force: bool) -> int:
-    """Return the number of panels: that of the axes given, else 2 if there are forces."""
-    if axes is not None and np.size(np.asarray(axes, dtype=object)) == 1:
-        return 1
-    return 2 if force or axes is not None else 1
 
 
 def _chosen(touches: NDArray[np.void], group: Index, count: int, most: int) -> Index:

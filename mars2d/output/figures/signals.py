@@ -24,9 +24,8 @@ from mars2d.output.figures.panels import (
     set_span,
     width_of,
 )
-from mars2d.output.figures.style import INK, MUTED, curve_color, robot_curve
+from mars2d.output.figures.style import INK, curve_color, robot_curve
 from mars2d.output.signals import Signal, chosen_robots, signals, without_nothing
-from mars2d.record.interventions import Change, Place
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -39,9 +38,6 @@ DEFAULT = ("x", "y", "theta", "command")
 
 LEAST_SPANS = {"effort": (0.0, 1.0), "speed": (0.0, 0.0), "clearance": (0.0, 0.05)}
 """The values that the axis of a column has at least; bodies at rest overlap slightly."""
-
-MAX_MARKS = 100
-"""The most interventions that are marked."""
 
 ROWS = 16
 """The most bars, one below the other, that have names."""
@@ -69,8 +65,7 @@ def plot_signals(
     each panel; by default those of a new figure. start, end: seconds, the part of the run that is
     drawn; by default all of it.
 
-    Flags are bars where they are True. nan and inf are gaps. A dotted line marks each row at which
-    a robot was placed by hand or the scenario was changed. Of readings of many numbers, such as
+    Flags are bars where they are True. nan and inf are gaps. Of readings of many numbers, such as
     scans, parts can be drawn.
 
     Raises InputError for a record without rows, and for unknown columns, robots and times.
@@ -111,8 +106,7 @@ def draw_signals(
     axes = panels(record, axes, [signal.name for signal in found], rows=rows)
     for ax, signal in zip(axes, found, strict=True):
         _draw(ax, record, rows, signal)
-    entries = _entries(record, robots, found) + _mark(axes, record, rows)
-    name_curves(axes[0], record.scenario.title, entries)
+    name_curves(axes[0], record.scenario.title, _entries(record, robots, found))
     if own:
         axes[0].figure.align_ylabels(axes)
     return axes
@@ -188,21 +182,6 @@ def _entries(record: Rows, robots: tuple[int, ...], shown: Sequence[Signal]) -> 
     order = [robot for robot in robots if robot in drawn]
     order += sorted(body for body in drawn if body >= len(record.scenario.robots))
     return [_entry(record, b, 1) for b in order] if len(order) <= LEGEND_LIMIT else []
-
-
-def _mark(axes: Sequence[Axes], record: Rows, rows: slice) -> list[Entry]:
-    """Draw a line at each intervention by hand, and return its entry in the legend."""
-    kinds = (Place, Change)
-    moments = {each.row for each in record.interventions if isinstance(each, kinds)}
-    drawn = moments.intersection(range(len(record))[rows])
-    times = [float(record.time[row]) for row in sorted(drawn)][:MAX_MARKS]
-    if not times:
-        return []
-    entry = Entry("by hand", MUTED, ":", 1.0)
-    for ax in axes:
-        for time in times:
-            ax.axvline(time, color=entry.color, linestyle=":", linewidth=entry.width, zorder=2.5)
-    return [entry]
 
 
 def _flags(ax: Axes, record: Rows, times: Float, signal: Signal, values: Float) -> None:
