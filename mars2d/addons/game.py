@@ -253,36 +253,6 @@ class Game(Elimination):
             return f"let nobody catch {whom} {time}"
         return f"stay out of sight {time}" if self.capture == SIGHT else f"stay free {time}"
 
-    @property
-    def counts(self) -> str:
-        """What is a capture, and who has won, in a few sentences."""
-        (hunting, hunters), (evading, evaders) = self.roles
-        count = len(evaders if self.hunted is None else self.hunted)
-        needed = self.wanted or count
-        hunter = f"the {hunting}"
-        if len(hunters) > 1:
-            hunter = f"one of {len(hunters)} {hunting.removesuffix('s')}s"
-        at_once = f", {self.together} of them at once" if self.together > 1 else ""
-        evader = f"the {evading}" if self.hunted is None else "the hunted one"
-        evader = evader if count == 1 else f"one of {count}"
-        how = {
-            CONTACT: f"touches {evader}",
-            SIGHT: f"sees {evader}, with no obstacle between their middles",
-        }.get(str(self.capture), f"comes within {self.capture} m of {evader}, middle to middle")
-        hunters_win, evaders_win = wins(hunting), wins(evading)
-        over = f"{self.par:g} s are over" if self.par else "time runs out"
-        in_goal = f"The {evaders_win} when {_so_many_are(count, needed)} in the goal"
-        if self.capture is None:
-            return f"Nobody is caught. {in_goal}. If {over} before, the {hunters_win}."
-        sentences = (
-            f"A capture is when {hunter} {how}{at_once}.",
-            "Who is caught stands still." if count > 1 else "",
-            f"The {hunters_win} with {'the capture' if needed == 1 else f'{needed} captures'}.",
-            f"{in_goal} uncaught." if self.goal is not None else "",
-            f"If {over} before, the {evaders_win if self.goal is None else hunters_win}.",
-        )
-        return " ".join(filter(None, sentences))
-
     # -- how it looks ------------------------------------------------------------------------------
 
     def paint(self, scene: Scene, area: Outline) -> None:  # noqa: ARG002

@@ -195,15 +195,6 @@ def without_code(scenario: Scenario) -> tuple[Scenario, tuple[str, ...]]:
     return kept.with_laws([robot.controller for robot in scenario.robots]), missing
 
 
-def to_value(data: Any) -> Any:
-    """Return the value that `from_description` made plain; LookupError if a part is missing."""
-    missing: list[str] = []
-    value = _to_description(data, missing)
-    if missing:
-        raise LookupError(", ".join(missing))
-    return value
-
-
 def _to_description(value: Any, missing: list[str]) -> Any:
     if isinstance(value, list):
         items = [_to_description(item, missing) for item in value]

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import csv
 import dataclasses
-import html
 import io
 import re
 from collections.abc import Iterable, Mapping
@@ -16,7 +15,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from math import nan
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +25,7 @@ from mars2d.core.extras import extra
 from mars2d.core.files import atomic_write
 from mars2d.scenario.options import parse_option
 from mars2d.study.measures import UNITS
-from mars2d.study.units import unit_of_field, with_unit
+from mars2d.study.units import unit_of_field
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -35,9 +34,6 @@ Float = NDArray[np.float64]
 
 FIRST, SEED, LAST = ("row", "experiment"), "seed", ("digest", "code", "error")
 """The columns of every table; the settings stand before the seed, the measures after it."""
-
-SHOWN_ROWS = 20
-"""How many rows of a table a notebook shows."""
 
 FORMULA = re.compile("'*[=+@-]")
 """The beginning of words that a spreadsheet takes for a formula, or that are quoted against it."""
@@ -124,17 +120,16 @@ class Table:
                 frame[name] = frame[name].astype(float)
         return frame
 
-    def save(self, path: str | Path, held: BinaryIO | None = None) -> Path:
+    def save(self, path: str | Path) -> Path:
         """Write the table as a .csv file, which `load` reads, and return its path.
 
-        held: the file that is replaced, where the caller holds it open. Raises InputError if the
-        table can't be written.
+        Raises InputError if the table can't be written.
         """
         target = Path(path)
         if target.suffix.lower() != ".csv":
             raise InputError(f"{target}: expected a name that ends in .csv")
         lines = [file_header(self), *(file_line(self, result) for result in self.results)]
-        with atomic_write(target, held) as file:
+        with atomic_write(target) as file:
             file.write(b"".join(lines))
         return target
 
@@ -151,28 +146,11 @@ class Table:
             raise InputError(f"{source}: can't be read: {error.strerror or error}") from error
         return parse_table(data[: data.rfind(b"\n") + 1], source)
 
-    def _repr_html_(self) -> str:
-        """Return the first rows as a table, for a notebook."""
-        columns = ["row", *self.settings, SEED, *self.measures, *(["error"] if self.failed else [])]
-        heads = "".join(f"<th>{_shown(with_unit(name, self.unit(name)))}</th>" for name in columns)
-        rows = map(_columns_of, self.results[:SHOWN_ROWS])
-        cells = ["".join(f"<td>{_shown(row.get(name))}</td>" for name in columns) for row in rows]
-        lines = "".join(f"<tr>{line}</tr>" for line in [heads, *cells])
-        left = len(self) - SHOWN_ROWS
-        more = f"<p>and {counted(left, 'row')} more</p>" if left > 0 else ""
-        return f"<p>{html.escape(repr(self)[1:-1])}</p><table>{lines}</table>{more}"
-
 
 def _columns_of(result: Result) -> dict[str, Any]:
     """Return the values of a run by the names of their columns."""
     own = {name: getattr(result, name) for name in ("row", SEED, *LAST)}
     return {**result.options, **result.measures, **own}
-
-
-def _shown(value: Any) -> str:
-    """Return a value as HTML."""
-    text = f"{value:.6g}" if isinstance(value, float) else "" if value is None else str(value)
-    return html.escape(text)
 
 
 # -- writing files ---------------------------------------------------------------------------------

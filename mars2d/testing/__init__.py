@@ -9,7 +9,6 @@ wrong. A test of a sensor is one line:
 
 from mars2d.testing.addon import check_addon
 from mars2d.testing.controller import check_controller
-from mars2d.testing.drive import check_drive
 from mars2d.testing.sensor import check_sensor
 from mars2d.testing.subject import CheckError, Finding
 
@@ -18,6 +17,5 @@ __all__ = [
     "Finding",
     "check_addon",
     "check_controller",
-    "check_drive",
     "check_sensor",
 ]

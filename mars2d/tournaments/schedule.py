@@ -14,7 +14,7 @@ from typing import Any
 
 from mars2d.core.description import wrong
 from mars2d.core.errors import InputError, likely, nearest, shown
-from mars2d.scenario.examples import examples
+from mars2d.scenario.examples import examples, experiment_name
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.policy import SUFFIX as POLICY
 from mars2d.scenario.roles import contest_of, roles_of
@@ -22,7 +22,6 @@ from mars2d.study.plan import MAX_RUNS, seeds_of
 from mars2d.tournaments.isolation.limits import LIMITS, Limits
 from mars2d.tournaments.isolation.source import law_code
 from mars2d.tournaments.match import Match
-from mars2d.tournaments.rules import Rules
 
 Files = str | Path | Sequence[str | Path]
 """One or several files of laws, folders or patterns."""
@@ -41,7 +40,8 @@ class Schedule:
     """All matches of a tournament, in order: pairing by pairing, seed by seed.
 
     experiment: a file, or the name of an example. roles: those of its contest, in order. limits: of
-    each law. files: those that were read for the experiment itself. rules: of the game.
+    each law. files: those that were read for the experiment itself. title: of its scenario. colors:
+    those of each role's robots, each once.
     """
 
     experiment: str
@@ -49,7 +49,8 @@ class Schedule:
     limits: Limits
     matches: tuple[Match, ...] = field(repr=False)
     files: frozenset[Path] = field(repr=False)
-    rules: Rules = field(repr=False)
+    title: str
+    colors: Mapping[str, tuple[str, ...]] = field(repr=False)
 
 
 def schedule(
@@ -107,7 +108,11 @@ def schedule(
         limits=limits,
         matches=matches,
         files=frozenset(opened.source.written),
-        rules=Rules.of(opened, limits),
+        title=opened.scenario.title or experiment_name(Path(named)),
+        colors={
+            role: tuple(dict.fromkeys(opened.scenario.colors[robot] for robot in team))
+            for role, team in roles_of(opened.scenario).items()
+        },
     )
 
 

@@ -41,4 +41,3 @@ def test_tables_and_their_heads_show_units():
     text = summary(table)
     assert "stop_time [s]  runs  end_time [s]" in text
     assert "differences from stop_time = 1 s, seed by seed" in comparison(table, "stop_time")
-    assert "<th>stop_time [s]</th><th>seed</th><th>end_time [s]</th>" in table._repr_html_()

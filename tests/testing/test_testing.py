@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mars2d import Addon, Drive, Robot, Scenario, Sensor, sensors
+from mars2d import Addon, Robot, Scenario, Sensor, sensors
 from mars2d.addons import Map
 from mars2d.cli import command_line as cli
 from mars2d.core.deadline import Deadline
@@ -24,7 +24,6 @@ from mars2d.testing import (
     CheckError,
     check_addon,
     check_controller,
-    check_drive,
     check_sensor,
 )
 from mars2d.testing.file import trials
@@ -284,42 +283,6 @@ def test_what_differs_only_beside_a_second_world_is_named():
     assert seen(findings_of(check_sensor, Shared()), "not repeatable", "beside a second world")
 
 
-# -- drives -----------------------------------------------------------------------------------
-
-
-class Crab(Drive):
-    """A sound drive that goes sideways."""
-
-    def twist(self, command):
-        return np.array([0 * command[0], command[0], command[1]])
-
-
-def drive(**body):
-    twist = {"twist": Crab.twist}
-    return type("Wheel", (Drive,), {"__doc__": "A drive.", **twist, **body})()
-
-
-DRIVES = {
-    "twist is missing": (lambda: drive(twist=Drive.twist), ["no method twist"]),
-    "an argument is missing": (lambda: drive(twist=lambda self: 1), ["twist(self, command)"]),
-    "two rows": (lambda: drive(twist=lambda self, command: command), ["shape (2, 5)", "(3, 5)"]),
-    "it raises": (lambda: drive(saturate=lambda self, command: 1 / 0), ["Wheel.saturate raised"]),
-    "columns depend on each other": (
-        lambda: drive(saturate=lambda self, command: command - command.mean()), ["among others"],
-    ),
-    "limiting twice changes something": (
-        lambda: drive(saturate=lambda self, command: command / 2), ["limited already"],
-    ),
-}  # fmt: skip
-
-
-@each_case("fault", DRIVES)
-def test_a_fault_of_a_drive_is_named(fault):
-    make, words = DRIVES[fault]
-    findings = findings_of(check_drive, make())
-    assert seen(findings, *words), texts(findings)
-
-
 # -- what never ends --------------------------------------------------------------------------
 
 
@@ -369,11 +332,6 @@ def test_the_sensors_of_mars2d_are_sound(name):
 def test_the_addons_of_mars2d_are_sound(name):
     addon = members("addons")[name](**ADDONS_NEED.get(name, {}))
     check_addon(addon, sensors=[sensors.Odometry(), sensors.Proximity(range=1.0)])
-
-
-@each_case("name", sorted(members("bodies")))
-def test_the_drives_of_mars2d_are_sound(name):
-    check_drive(members("bodies")[name]())
 
 
 @pytest.mark.slow

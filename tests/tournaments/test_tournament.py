@@ -339,22 +339,6 @@ def test_a_match_that_was_changed_in_the_file_is_refused(evening, tmp_path, chan
     assert (tmp_path / PLAYED).read_bytes() == forged
 
 
-# -- one match, once more --------------------------------------------------------------------------
-
-
-def test_a_match_can_be_played_again_alone(evening, command):
-    code, printed, _ = command("chase.py", *ALL, "--out", "out", "--match", "11", "--record", "11.npz")  # fmt: skip  # noqa: E501
-    digest = evening.result.matches[10].digest
-    assert code == 0
-    first, how, same, *output = printed.splitlines()
-    assert first == "match 11: pursuer quick, evader still, seed 0"
-    assert how.startswith("red catches blue after")
-    assert how.endswith(f"digest {digest[:16]}")
-    assert same == "the same as before, to the last bit"
-    assert output[:2] == ["quick printed:", "here I am"]
-    assert mars2d.load(evening.folder / "11.npz").digest == digest
-
-
 # -- players, matches without a result -------------------------------------------------------------
 
 
@@ -398,8 +382,6 @@ WRONG = {
         "no laws for the role 'evader': name them by --role evader=FILES",
     "chase.py --players pursuers/quick.py":
         "there is nobody to play against: a law does not play itself",
-    "chase.py ALL --match 13": "--match 13: expected a number from 1 to 12",
-    "chase.py ALL --record a.npz": "--record needs --match N",
     "chase.py ALL --set seed=1": "option 'seed': say how many there are, with --seeds N",
     "chase.py ALL --set evader=evaders/nan.py":
         "option 'evader': this is a role; name its laws by --role evader=FILES",

@@ -11,15 +11,13 @@ from types import ModuleType
 
 from mars2d.addons import maps
 from mars2d.cli import remarks
-from mars2d.cli.arguments import MANY, Output, option, refuse
-from mars2d.cli.outputs import conclude, produced
+from mars2d.cli.arguments import MANY, option, refuse
 from mars2d.cli.runs import run_headless
 from mars2d.core.deadline import PATIENCE, Deadline
 from mars2d.core.errors import InputError, Late, Mars2dError, counted, nearest, one_line
 from mars2d.core.progress import progress
 from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
-from mars2d.output.figures.map import save_map
 from mars2d.scenario.experiment import Experiment, open_experiment, open_module
 from mars2d.scenario.options import options_in_words, parse_option, reading_options
 from mars2d.scenario.policy import SUFFIX as LEARNED
@@ -44,7 +42,7 @@ LOADING = 60.0
 """The time that loading a file may take, seconds."""
 
 _FILES = (
-    "an experiment, sensors, add-ons, drives, laws (.py or an example's name), a learned law "
+    "an experiment, sensors, add-ons, laws (.py or an example's name), a learned law "
     f"({LEARNED}), a scenario (.toml), a record ({', '.join(formats.SUFFIXES)}), or a map"
 )
 _SET = "how a map is read; with --for, a field of the experiment"
@@ -54,7 +52,6 @@ ARGUMENTS = {
     "--set": option("KEY=VALUE", _SET, **MANY),
     "--for": option("GAME", "with a law: play it in this game, with --role", dest="game"),
     "--role": option("ROLE", "with --for: the role that the law plays"),
-    "--figure": option("OUT", "draw a map: .png, .pdf, .svg", Path, action=Output),
 }
 
 
@@ -67,14 +64,13 @@ def execute(arguments: argparse.Namespace) -> None:
     options = dict(map(parse_option, arguments.set))
     suffix = path.suffix.lower()
     if suffix not in maps.SUFFIXES:
-        refuse(arguments, "figure set", f"is for maps: {', '.join(maps.SUFFIXES)}")
+        refuse(arguments, "set", f"is for maps: {', '.join(maps.SUFFIXES)}")
     if suffix in maps.SUFFIXES:
         known = reading_options()
         if unknown := [name for name in options if name not in known]:
             raise InputError(f"--set {unknown[0]}: no option{nearest(unknown[0], known)}")
         drawing = maps.read(path, **options)
         _tell_all(maps.described(drawing, maps.obstacles(drawing)))
-        conclude(*produced(arguments, {"figure": lambda: save_map(drawing, arguments.figure)}))
     elif suffix in formats.SUFFIXES:
         _check_record(path)
     elif path.suffix in ("", ".py", ".toml", LEARNED):

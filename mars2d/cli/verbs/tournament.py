@@ -6,8 +6,8 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from mars2d.cli.arguments import MANY, Output, option, options_of, refuse, shared
-from mars2d.core.errors import InputError, Mars2dError, counted, one_line
+from mars2d.cli.arguments import MANY, option, options_of, shared
+from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.terminal import tell
 from mars2d.scenario.examples import experiment_name
 from mars2d.study.work import worker_count
@@ -15,7 +15,6 @@ from mars2d.tournaments.folder import played_before
 from mars2d.tournaments.isolation.limits import LIMITS, Limits
 from mars2d.tournaments.league import matches_of
 from mars2d.tournaments.league_text import league_text
-from mars2d.tournaments.match import Played, replayed
 from mars2d.tournaments.schedule import Schedule, schedule
 from mars2d.tournaments.tournament import PAGE, TournamentInterrupted, missing, play_schedule
 
@@ -35,16 +34,12 @@ ARGUMENTS = {
     "--memory": option("MB", "memory that a law may use", float, default=LIMITS.memory),
     "--reads": option("FILES", "files and folders that laws may read", **EACH),
     "--out": option("FOLDER", _FOLDER, Path),
-    "--match": option("N", "play only this match, again", int),
-    "--record": option("OUT", "with --match: save all its data", Path, action=Output),
     **shared("workers"),
 }
 
 
 def execute(arguments: argparse.Namespace) -> None:
     """Let the laws of files play each other; print the league, and write a page with replays."""
-    if arguments.match is None:
-        refuse(arguments, "record", "needs --match N")
     worker_count(arguments.workers)
     limits = Limits(
         tick=arguments.tick_limit,
@@ -62,8 +57,7 @@ def execute(arguments: argparse.Namespace) -> None:
         limits=limits,
     )
     path = arguments.out or Path(f"tournament_{experiment_name(Path(planned.experiment))}")
-    play = _play_all if arguments.match is None else _play_one
-    play(arguments, planned, path)
+    _play(arguments, planned, path)
 
 
 def _roles(given: list[list[str]]) -> dict[str, list[str]]:
@@ -84,14 +78,14 @@ def _roles(given: list[list[str]]) -> dict[str, list[str]]:
     return roles
 
 
-def _play_all(arguments: argparse.Namespace, planned: Schedule, path: Path) -> None:
+def _play(arguments: argparse.Namespace, planned: Schedule, path: Path) -> None:
     """Play the matches not played yet, and print the league, also after Ctrl-C."""
     laws = {role: {match.laws[role] for match in planned.matches} for role in planned.roles}
     who = ", ".join(f"{len(names)} as {role}" for role, names in laws.items())
     count = len(planned.matches)
     before = count - len(missing(planned, played_before(path, planned)))
     known = f", {before} of them played before" if before else ""
-    tell(f"{planned.rules.title}: {who}: {matches_of(count)}{known}")
+    tell(f"{planned.title}: {who}: {matches_of(count)}{known}")
     interrupt = None
     try:
         result = play_schedule(planned, path, workers=arguments.workers)
@@ -103,31 +97,3 @@ def _play_all(arguments: argparse.Namespace, planned: Schedule, path: Path) -> N
         raise interrupt
     if failed := sum(bool(played.error) for played in result.matches):
         raise Mars2dError(f"{matches_of(failed)} without a result: play again by the same command")
-
-
-def _play_one(arguments: argparse.Namespace, planned: Schedule, path: Path) -> None:
-    """Play one match again; print its outcome, and whether it is the same as before."""
-    count = len(planned.matches)
-    if not 1 <= arguments.match <= count:
-        raise InputError(f"--match {arguments.match}: expected a number from 1 to {count}")
-    match = planned.matches[arguments.match - 1]
-    who = ", ".join(f"{role} {law}" for role, law in match.laws.items())
-    tell(f"match {match.number}: {who}, seed {match.seed}")
-    played, record = replayed(match, planned.limits)
-    steps = counted(played.steps, "step")
-    tell(f"{one_line(played.message)}. {steps}, digest {played.digest[:16]}")
-    tell(_compared(played, played_before(path, planned), path))
-    for role, text in played.output.items():
-        tell(f"{match.laws[role]} printed:\n{text.rstrip()}")
-    if arguments.record is not None:
-        record.save(arguments.record)
-
-
-def _compared(played: Played, known: tuple[Played, ...], path: Path) -> str:
-    """Return a line that compares a match with the same one in the tournament's folder."""
-    before = next((each for each in known if each.match == played.match), None)
-    if before is None:
-        return f"it was not played before with these files, as far as {path} says"
-    if before.digest == played.digest:
-        return "the same as before, to the last bit"
-    return f"not as before: {before.message}. Digest {before.digest[:16]}"

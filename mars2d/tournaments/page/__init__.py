@@ -12,7 +12,6 @@ from mars2d.core.files import atomic_write
 from mars2d.output.pages.replay import colors, filled, page_script, page_style, player, policy
 from mars2d.scenario.options import options_in_words
 from mars2d.tournaments.league import UNPROTECTED, Tournament
-from mars2d.tournaments.page.rules import rules_part
 from mars2d.tournaments.page.tables import (
     choices,
     grades,
@@ -37,7 +36,7 @@ def league_page(tournament: Tournament) -> str:
     replays = {each.match.number: each.replay for each in tournament.matches if each.replay}
     sizes = accumulate(len(replay) for replay in replays.values())
     kept = sum(size <= MAX_REPLAYS_SIZE for size in sizes)
-    inside, title = read("inside.js"), tournament.schedule.rules.title
+    inside, title = read("inside.js"), tournament.schedule.title
     words = {
         "facts": terms(_facts(tournament, [*replays][kept:])),
         "standings": standing_tables(tournament),
@@ -45,7 +44,6 @@ def league_page(tournament: Tournament) -> str:
         "matrix": matrix(tournament),
         "choices": choices(tournament),
         "matches": match_table(tournament),
-        "rules": rules_part(tournament.schedule.rules),
         "player": _player(one_line(title), inside),
         "replays": "\n".join(
             f'<script id="replay-{number}" type="text/plain">{escaped(replay)}</script>'

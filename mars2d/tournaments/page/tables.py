@@ -60,7 +60,7 @@ def standing_tables(tournament: Tournament) -> str:
                 cells["forfeits"] = _forfeits(standing.forfeits)
         role, columns = standings[0].role, {name: kinds.get(name, "number") for name in rows[0]}
         label = f"As {escaped(role)}" if role else "All laws"
-        title = dots(tournament.schedule.rules.roles[role].colors) + label if role else label
+        title = dots(tournament.schedule.colors[role]) + label if role else label
         lines = [[*row.values()] for row in rows]
         tables.append(table("league", label, columns, lines, title))
     return "\n".join(tables)
@@ -177,7 +177,7 @@ def match_table(tournament: Tournament) -> str:
         }
         for role, law in played.match.laws.items():
             won = f"<b>{named(law)}</b>" if role == played.winner else named(law)
-            cells[role] = dots(schedule.rules.roles[role].colors) + won
+            cells[role] = dots(schedule.colors[role]) + won
         rows.append([cells[name] for name in columns])
     return table("matches", "All matches", columns, rows)
 

@@ -127,7 +127,7 @@ def test_a_record_keeps_the_walls_not_the_file(folder):
 
 @pytest.mark.slow
 def test_check_shows_what_was_read_and_draws_it(folder):
-    done = mars("check", "room.wkt", "--set", "unit=cm", "--set", "at=(0,1)", "--figure", "a.png")
+    done = mars("check", "room.wkt", "--set", "unit=cm", "--set", "at=(0,1)")
     assert done.stderr == ""
     assert done.stdout.splitlines() == [
         "map         room.wkt, WKT",
@@ -137,7 +137,6 @@ def test_check_shows_what_was_read_and_draws_it(folder):
         "hint        0.06 m is small for a map of robots: is it unit=m (6 m)?",
         "obstacles   1 wall",
         "corners     5, within 0.02 m",
-        "figure: a.png",
     ]
     assert (folder / "a.png").read_bytes().startswith(b"\x89PNG")
 
@@ -146,8 +145,6 @@ def test_check_shows_what_was_read_and_draws_it(folder):
     ("words", "said"),
     [
         (["room.wkt", "--set", "units=cm"], "--set units: no option; did you mean 'unit'?"),
-        (["room.wkt", "--figure", "a.gif"], "--figure a.gif: expected a name that ends in"),
-        (["lab.py", "--figure", "a.png"], "--figure is for maps: .dxf"),
         (
             ["plan.dwg"],
             "plan.dwg: expected a Python file (.py), a learned law (.onnx), a scenario (.toml)",
@@ -159,16 +156,3 @@ def test_check_shows_what_was_read_and_draws_it(folder):
 def test_check_says_what_it_can_not_do(words, said, capsys):
     assert main(["check", *words]) == 2
     assert said in capsys.readouterr().err
-
-
-@pytest.mark.slow
-@each_case("suffix", ["png", "svg"])
-def test_a_picture_of_a_map_is_the_same_each_time(folder, suffix):
-    from mars2d.addons.maps import read
-    from mars2d.output.figures.map import save_map
-
-    for name in ("a", "b"):
-        save_map(read(folder / "room.wkt"), folder / f"{name}.{suffix}")
-    first, second = ((folder / f"{name}.{suffix}").read_bytes() for name in ("a", "b"))
-    assert first == second
-    assert len(first) > 1000

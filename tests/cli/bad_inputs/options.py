@@ -92,7 +92,6 @@ OF_TOURNAMENT = [
     ("a tournament of no workers", "sumo --players players --workers 0", "workers=0"),
     ("a tick of no time", "sumo --players players --tick-limit 0", "tick", "0"),
     ("a match of NaN seconds", "sumo --players players --match-limit nan", "match", "nan"),
-    ("a match's record without a match", "sumo --record a.npz", "--record", "--match"),
 ]
 
 OF_PLOT = [
