@@ -82,7 +82,7 @@ class Contest(Addon):
 
     roles: tuple[Role, ...] = entry(
         check=_roles, kw_only=False,
-        doc="the robots of both roles by name or index, hunters first if any",
+        doc="the robots of both roles",
     )  # fmt: skip
 
     scored: ClassVar[tuple[str, str]] = ("", "")

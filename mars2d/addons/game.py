@@ -69,7 +69,7 @@ class Game(Elimination):
 
     capture: str | float | None = entry(
         default=CONTACT, check=checks.optional(_capture), unit="m",
-        doc="'contact', 'sight', a hunter's distance from an evader, or None: nobody is caught",
+        doc="what catches an evader; None: nothing",
     )  # fmt: skip
     goal: Outline | None = entry(
         default=None, check=checks.optional(checks.outline, 3), unit="m",
@@ -77,7 +77,7 @@ class Game(Elimination):
     )  # fmt: skip
     hunted: tuple[str | int, ...] | None = entry(
         default=None, check=checks.optional(robots_of),
-        doc="the robots to catch, if not those of the second role, which then help them",
+        doc="the robots to catch, if not those of the second role",
         names="robot",
     )  # fmt: skip
     wanted: int | None = integer(
@@ -90,7 +90,7 @@ class Game(Elimination):
     )
     par: float | None = number(
         default=None, above=0, high=1e9, optional=True, unit="s",
-        doc="when time is over for who has to catch, or to reach the goal; None: the stop time",
+        doc="when the time is over; None: the stop time",
     )  # fmt: skip
     to_the_end: bool = flag(
         default=False, doc="go on, though it is decided, until nobody is left to catch"

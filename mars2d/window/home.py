@@ -67,10 +67,13 @@ class Home:
 
     @property
     def shelves(self) -> list[Shelf]:
-        """The shelves, with the cards in which the words that were typed occur."""
-        found = (Shelf(each.title, [card for card in each.cards if card.has(self.search.text)])
-                 for each in self._all_shelves())  # fmt: skip
-        return [shelf for shelf in found if shelf.cards]
+        """The shelves, with the cards in which the words that were typed occur, titles first."""
+        words, found = self.search.text, list[Shelf]()
+        for shelf in self._all_shelves():
+            cards = [card for card in shelf.cards if card.has(words)]
+            cards.sort(key=lambda card: not card.is_called(words))
+            found += [Shelf(shelf.title, cards)] if cards else []
+        return sorted(found, key=lambda shelf: not shelf.cards[0].is_called(words))
 
     def _all_shelves(self) -> list[Shelf]:
         own = [_own_card(path, self._memory.picture(path)) for path in self._memory.recent]

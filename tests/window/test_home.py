@@ -62,6 +62,16 @@ def test_each_card_opens_by_a_click_and_its_command_is_one(memory):
         assert home.choice == card.command
 
 
+@pytest.mark.parametrize(("size", "text"), [((1280, 720), 2.2), ((640, 480), 1.0)])
+def test_the_chosen_card_is_seen_as_a_whole(memory, size, text):
+    home, surface = shown(memory, size, text)
+    for _ in range(12):
+        home.draw(surface)
+        place = home.page._seen(home.page.places[home.page.chosen][1])
+        assert home.page._area.contains(place)
+        press(home, pygame.K_DOWN)
+
+
 def test_what_is_typed_is_searched_for(memory):
     home, surface = shown(memory)
 
@@ -72,6 +82,7 @@ def test_what_is_typed_is_searched_for(memory):
         return {card.title for card in all_cards(home)}
 
     assert "Push box" in found("push b")
+    assert all_cards(home)[0].title == "Push box", "what is called so comes first"
     assert found("RangeFinder") == found("range_finder") >= {"Obstacle avoidance"}, "a part"
     assert len(found("contact")) > 10, "a course, docstrings, and the field physics"
     press(home, pygame.K_ESCAPE)

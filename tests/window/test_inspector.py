@@ -196,7 +196,7 @@ def test_every_sensor_has_a_plot(world):
         for plot in sensor_plots(world.record.frame(row), 0):
             surface.fill("#ff00ff")
             before = pygame.surfarray.array3d(surface)
-            plot.draw(surface, pygame.Rect(0, 0, 300, round(plot.height)), Painter())
+            plot.draw(Painter(), surface, pygame.Rect(0, 0, 300, round(plot.height)))
             assert (pygame.surfarray.array3d(surface) != before).any(), plot.sensor.key
 
 
@@ -207,7 +207,7 @@ def test_a_scan_is_seen_from_left_to_right():
     world.observe()
     (plot,) = sensor_plots(world.frame, 0)
     surface = pygame.Surface((300, round(plot.height)), 0, 32)
-    plot.draw(surface, surface.get_rect(), Painter())
+    plot.draw(Painter(), surface, surface.get_rect())
     ink = rgba(LIGHT.shade(world.scenario.colors[0]))[:3]
     tall = (pygame.surfarray.array3d(surface) == ink).all(axis=2).sum(axis=1)
     low = np.flatnonzero((tall > 0) & (tall < tall.max() - 4))

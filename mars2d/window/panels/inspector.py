@@ -111,7 +111,7 @@ class Inspector(RowsPanel):
             yield self.stack(*(Row(ROW, partial(self._draw_row, *row)) for row in numbers), gap)
         for sensed in sensor_plots(frame, body):
             kind, key = snake_case(type(sensed.sensor).__name__), sensed.sensor.key
-            drawn = Row(sensed.height, partial(sensed.draw, painter=self.painter))
+            drawn = Row(sensed.height, partial(sensed.draw, self.painter))
             yield self._headed(key, "" if kind == key else kind, drawn)
         if body < len(robots) and any(each.carries_messages for each in frame.scenario.addons):
             heard = [

@@ -322,10 +322,18 @@ class ParameterPanel(RowsPanel):
         return True
 
     def _focus_next(self, name: str, way: int) -> None:
-        """Let the next slider, or the one before, have the focus, and be seen."""
+        """Let the next slider, or the one before, have the focus."""
         names = [*self.parameters()]
+        self.focus_on(names[(names.index(name) + way) % len(names)])
+
+    def focus_on(self, name: str | None) -> None:
+        """Let a slider have the focus, and be seen; None: the first, of what is selected."""
         self.leave()
-        self.focus, self.said = names[(names.index(name) + way) % len(names)], ("", "info")
+        names = [line.parameter and line.parameter.name for line in self._look()]
+        if name is None:
+            last = max((k for k, found in enumerate(names) if found is None), default=0)
+            name = next((found for found in (*names[last:], *names) if found), None)
+        self.focus, self.said = name, ("", "info")
         top = 0.0
         for line in self._lines:
             if line.parameter is not None and line.parameter.name == self.focus:

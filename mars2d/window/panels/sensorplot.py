@@ -37,7 +37,7 @@ class SensorPlot(NamedTuple):
 
     sensor: Sensor
     height: float
-    draw: Callable[[pygame.Surface, pygame.Rect, Painter], None]
+    draw: Callable[[Painter, pygame.Surface, pygame.Rect], None]
 
 
 class History(NamedTuple):
@@ -93,7 +93,7 @@ class _Lines:
     quantity: Quantity
     color: str
 
-    def __call__(self, surface: pygame.Surface, rect: pygame.Rect, painter: Painter) -> None:
+    def __call__(self, painter: Painter, surface: pygame.Surface, rect: pygame.Rect) -> None:
         ui, theme = painter.ui, painter.theme
         values, height = self.history.values, round(ROW * ui)
         several = values.shape[1] > 1
@@ -147,7 +147,7 @@ class _Cells:
 
     colors: Float
 
-    def __call__(self, surface: pygame.Surface, rect: pygame.Rect, painter: Painter) -> None:
+    def __call__(self, painter: Painter, surface: pygame.Surface, rect: pygame.Rect) -> None:
         ground = np.array(rgba(painter.theme.track)[:3]) / 255
         colors = np.where(np.isfinite(self.colors), self.colors, ground)
         pixels = np.rint(255 * np.clip(colors, 0, 1)).astype(np.uint8)
@@ -164,7 +164,7 @@ class _Bars:
     values: Float
     color: str
 
-    def __call__(self, surface: pygame.Surface, rect: pygame.Rect, painter: Painter) -> None:
+    def __call__(self, painter: Painter, surface: pygame.Surface, rect: pygame.Rect) -> None:
         values = np.where(np.isfinite(self.values), self.values, 0.0)
         low, high = min(0.0, float(values.min())), max(0.0, float(values.max()))
         span = (high - low) or 1.0

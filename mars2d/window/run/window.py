@@ -151,7 +151,7 @@ class Window(PlayerWindow):
             "film": self.saver.film_or_not,
             "scenario": self._save_scenario,
         }
-        self.scopes = Scopes(painter, self.player)
+        self.scopes: Scopes = Scopes(painter, self.player)
         self.dock = Dock(
             painter,
             [
@@ -605,7 +605,7 @@ class Window(PlayerWindow):
         """Let keys go to the sliders of parameters, which are shown."""
         if not self.parameters.is_open:
             self._switch_panel("parameters")
-        self.parameters.focus = next(iter(self.parameters.parameters()), None)
+        self.parameters.focus_on(None)
 
     def _turn_panels(self, notches: int) -> None:
         """Scroll the panels that have more rows, as the wheel over them does."""

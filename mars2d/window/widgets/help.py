@@ -155,8 +155,8 @@ def _draw_column(
             x = draw_cap(surface, painter, name, x, middle, ui)
         left = place.left + max(CAPS * ui, _caps(painter.fonts, row.labels, ui))
         for k, line in enumerate(row.lines):
-            at = left, middle + round(k * LINE * ui)
-            painter.write(surface, line, size, theme.text, midleft=at)
+            beside = left, middle + round(k * LINE * ui)
+            painter.write(surface, line, size, theme.text, midleft=beside)
 
 
 def _caps(fonts: Fonts, labels: Iterable[str], ui: float) -> float:
