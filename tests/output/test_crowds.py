@@ -1,4 +1,4 @@
-"""Many small robots are seen, named, coloured by group, and what is drawn of them has legends."""
+"""Many small robots are seen and named, and what is drawn of them has legends."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pytest
 import mars2d
 from mars2d import Holonomic, Robot, Scenario
 from mars2d.addons import Communication, Theory
-from mars2d.core.scene import PALETTE, Circle, Text, rgb
+from mars2d.core.scene import Circle, Text
 from mars2d.output.figures.contacts import plot_contacts
 from mars2d.output.figures.figure import plot_paths, save_drawing
 from mars2d.output.figures.signals import plot_signals
@@ -19,7 +19,6 @@ from mars2d.output.layers.legend import legends
 from mars2d.output.layers.placement import placed_names
 from mars2d.output.layers.rings import RING, place_ring
 from mars2d.output.layers.table import of_bodies
-from mars2d.scenario.controllers import ByHand
 from mars2d.sensors import Beacon, Imu, Proximity, RangeBearing, RangeFinder, SonarRing
 from tests.cases import each_case
 
@@ -86,28 +85,6 @@ def test_a_name_stays_at_its_place_as_long_as_that_is_as_good():
         places.append(dict(last))
     assert places[0]
     assert all(place == places[0] for place in places)
-
-
-# -- colours ---------------------------------------------------------------------------------------
-
-
-def test_a_crowd_is_coloured_by_name_law_drive_and_size():
-    red, drone = Robot(name="red0"), Robot(drive=Holonomic())
-    groups = [
-        [red.replace(name=f"red{k}") for k in range(9)],
-        [drone] * 9,
-        [Robot(controller=ByHand())] * 9,
-        [Robot(diameter=0.2)] * 9,
-    ]
-    robots = [r.at(k % 9, k // 9) for k, r in enumerate(r for group in groups for r in group)]
-    colors = Scenario(robots=robots, workspace=None).colors
-    for g in range(4):
-        own = set(colors[9 * g : 9 * g + 9])
-        assert len(own) == 3  # in three shades
-        assert PALETTE[g] in own
-        hue = np.argmax(rgb(PALETTE[g]))
-        assert all(np.argmax(rgb(color)) == hue for color in own)
-    assert len(set(colors)) == 12
 
 
 # -- legends ---------------------------------------------------------------------------------------
