@@ -35,7 +35,7 @@ def control(world):
 def scenario(door: float = 0.58, speed: float = 0.5):
     robot = Robot(friction=0.1, drive=Holonomic(max_linear_speed=speed))
     wall = [(0, door / 2), (0, HALL), (LENGTH, HALL), (LENGTH, door / 2)]
-    blues = {"base_colors": ["#0072b2", "#59a3cd", "#00507d"]}
+    blues = ["#0072b2", "#59a3cd", "#00507d"]
     return Scenario(
         title="A crowd at a door",
         robots=[robot.at(-0.5 - k // 10 * 0.45, (k % 10 - 4.5) * 0.45) for k in range(50)],
