@@ -1,11 +1,6 @@
 """What is kept of a window: never over another file, and films that show what was shown."""
 
 import sys
-<<<<<<< HEAD
-import time
-=======
-from math import pi
->>>>>>> output
 
 import numpy as np
 import pygame
