@@ -27,7 +27,7 @@ from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.picture import summary
-from mars2d.output.raster.stage import MEMORY, Stage
+from mars2d.output.raster.stage import Stage
 from mars2d.record.frame import Frame
 from mars2d.window.run import keys
 from mars2d.window.run.ending import Ending
@@ -160,7 +160,7 @@ class CompareWindow(PlayerWindow):
         marked = trio.runs["contact"]
         super().__init__(trio, speed, size, preferences, title=title, stem=stem, marked=marked)
         self.trio, self.plot = trio, DriftPlot()
-        self._stages = {mode: Stage(self.looks.painter, MEMORY // len(MODES)) for mode in MODES}
+        self._stages = {mode: Stage(self.looks.painter) for mode in MODES}
         self._ending = Ending(self.player)
         self._dragged: Callable[[Pixel], None] | None = None
         self.viewpoint = Viewpoint(trio.scenario, self._arrange(self.looks.layout(size)))

@@ -302,4 +302,4 @@ class Director:
 
 def _turns(robot: Robot) -> bool:
     """Return whether a robot can turn as it moves in any direction."""
-    return len(robot.drive.inputs) > 2
+    return robot.drive.second_stick

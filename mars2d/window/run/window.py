@@ -18,7 +18,7 @@ from mars2d.output.layers.table import Layers
 from mars2d.output.raster.bars import Banner, Status, draw_footer, draw_header, footer_height
 from mars2d.output.raster.layout import Layout, fitted
 from mars2d.output.raster.picture import arena_of, summary
-from mars2d.output.raster.stage import MEMORY, Stage
+from mars2d.output.raster.stage import Stage
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import Intervention, pushes_at
 from mars2d.scenario.controllers import standing_still
@@ -111,7 +111,7 @@ class Window(PlayerWindow):
         self._ending = Ending(self.player)
         self._cast = _cast(source)
         painter = self._painter = self.looks.painter
-        self._stage = Stage(painter, MEMORY)
+        self._stage = Stage(painter)
         self._selection = Selection()
         self._tools = Tools(self.player, self.director, self._selection, self.notes)
         self._printed = Printed(painter, lambda: self.player.source.frame.time)
@@ -319,7 +319,6 @@ class Window(PlayerWindow):
             beneath=others,
             marks=marks,
             hurried=self.viewpoint.hurried,
-            selected=self.selected,
         )
         self._draw_dock(surface, frame)
         if notes and not self.saver.filming:
