@@ -327,7 +327,7 @@ class Window(PlayerWindow):
         self._tools.stopwatch.draw(surface, self.viewpoint.room, self._painter, frame.time)
         self._draw_bars(surface, frame, banner)
         if self._before is not None and notes:
-            self._before.draw(surface, self.viewpoint.room, layout.plot, self.camera, frame)
+            self._before.draw(surface, self.viewpoint.room, layout.plot, frame.scenario)
         if notes:
             self.toolbar.draw(surface, layout, self._painter, self._pointer)
             self._tools.menu.draw(surface, layout.plot, self._painter)
