@@ -12,7 +12,6 @@ from mars2d.physics.islands.piece import Piece
 from mars2d.physics.islands.state import Progress, State
 
 
-@cython.final
 @cython.cclass
 class Body(DrivenBody):
     """A robot or prop. SI units; "now" is within the present substep, unless it says otherwise."""
@@ -152,7 +151,6 @@ class Body(DrivenBody):
         self.by_hand += self.by_holder - by_holder
         self.by_holder = by_holder
 
-    @cython.cfunc
     def look(self) -> cython.void:
         """Work out how fast its velocity may change."""
         self.accelerates = False
@@ -172,7 +170,6 @@ class Body(DrivenBody):
             self.obey()
             self.acceleration = self.pull_on_arc(self.turning) / self.mass
 
-    @cython.cfunc
     def top_speed(self) -> cython.double:
         """Return how fast its circle moves at most now."""
         arm: cython.double = self.offset
@@ -180,7 +177,6 @@ class Body(DrivenBody):
             arm += 2 * abs(self.com)
         return length(self.vx, self.vy) + arm * abs(self.spin)
 
-    @cython.cfunc
     def is_pushed(self) -> cython.bint:
         """Return whether anything but its drive and the floor acted on it in the solver's step.
 
@@ -191,7 +187,6 @@ class Body(DrivenBody):
         )
         return self.tied or self.pulled or self.pressure > 1e-12 * self.mass * fast
 
-    @cython.cfunc
     def advance(self, h: cython.double) -> cython.void:
         """Move for h s as aimed, in closed form."""
         self.x += h * self.aim_x
@@ -201,7 +196,6 @@ class Body(DrivenBody):
             self.placed = True
         self.vx, self.vy, self.spin = self.end_x, self.end_y, self.end_spin
 
-    @cython.cfunc
     def displace(self, x: cython.double, y: cython.double, turn: cython.double) -> cython.void:
         """Move its centre of mass by x and y, metres, and turn it about that, rad."""
         if self.com != 0.0:
@@ -214,7 +208,6 @@ class Body(DrivenBody):
             self.place_com(self.angle)
             self.x, self.y = self.x - self.com_x, self.y - self.com_y
 
-    @cython.cfunc
     def correct(self, h: cython.double) -> cython.void:
         """Go as far as the engine moved it in h s to correct overlaps, beyond its own way."""
         x: cython.double = self.moved_x - (self.back.x + h * self.back.vx)
@@ -223,7 +216,6 @@ class Body(DrivenBody):
         if length(x, y) + self.reach * abs(turn) > 1e-12:  # no rounding error
             self.x, self.y, self.angle = self.x + x, self.y + y, self.angle + turn
 
-    @cython.cfunc
     def fall_back(self) -> cython.void:
         """Go back to where the engine moved it."""
         if self.ahead:

@@ -32,6 +32,15 @@ PREFIXES = r"\b(?:chipmunk|library|settings)\.(\w+)"
 ALIASES = r"^(\w+(?:, \w+)*) = (lib\.cp\w+(?:, lib\.cp\w+)*)$"
 """Lines in which `chipmunk` only gives names to the engine's functions."""
 
+OF_C = r"^( *)def (?!__)(?=\w+\([^)]*\) -> (?!None|bool|int|float|list\[Any|tuple\[Any))"
+"""Where a function begins that only the islands call: its result is none of Python's."""
+
+NO_RESULT = r"(?<!check=False\)\n)^( *)def (\w+\([^)]*\)) -> cython\.void:\n((?:\1 .+\n|\n)+)"
+"""One without a result, which the engine does not call."""
+
+NEVER_FAILS = r"^( *)def (?=\w+\([^)]*\) -> (?:Vector|tuple\[cython.double, cython.double\]):)"
+"""One whose result is a struct: in C there is none that stands for an error."""
+
 FUNCTIONS = """
 void(Handle, double): SpaceStep SpaceSetCurrentTimeStep SpaceSetCollisionSlop
   SpaceSetCollisionBias ShapeSetFriction ShapeSetElasticity BodySetAngularVelocity BodySetTorque
@@ -77,6 +86,7 @@ Vector(Handle, Vector): BodyLocalToWorld
 HEAD = """
 # cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True
 # cython: initializedcheck=False, nonecheck=False, binding=False, auto_pickle=False
+# cython: infer_types=True
 cimport cython
 from libc.math cimport ceil, floor, fmod, sqrt
 from typing import Any
@@ -130,6 +140,24 @@ def _constant(found: re.Match[str]) -> str:
     return f"cdef {'int' if found[2].isdigit() else 'double'} {found[1]} = {found[2]}"
 
 
+def _of_c(text: str) -> str:
+    """Let functions and classes be those of C.
+
+    A function without a result returns 0, or -1 with an error, which is quicker to look for.
+    """
+
+    def with_result(found: re.Match[str]) -> str:
+        body = re.sub(r"^( +return)$", r"\1 0", found[3], flags=re.M)
+        return f"{found[1]}def {found[2]} -> cython.int:\n{body}"
+
+    text = re.sub(NO_RESULT, with_result, text, flags=re.M)
+    text = re.sub(OF_C, r"\1@cython.cfunc\n\1def ", text, flags=re.M)
+    text = re.sub(NEVER_FAILS, r"\1@cython.exceptval(check=False)\n\1def ", text, flags=re.M)
+    for base in re.findall(r"^class \w+\((\w+)\)", text, flags=re.M):
+        text = text.replace(f"@cython.cclass\nclass {base}", f"@cython.cclass  #\nclass {base}")
+    return text.replace("@cython.cclass\n", "@cython.final\n@cython.cclass\n")
+
+
 def joined() -> str:
     """Return the modules as one for Cython."""
     engine = (HERE / "library.pxi").read_text("utf-8")
@@ -146,7 +174,7 @@ def joined() -> str:
         text = re.sub(r"\blib\.cp", "engine.cp", text)
         text = re.sub(r"^@callback\(.*\)$", "@cython.exceptval(check=False)", text, flags=re.M)
         parts.append(f"# -- {name}.py\n{text}")
-    return "\n".join(parts)
+    return _of_c("\n".join(parts))
 
 
 def compile_into(folder: Path, flags: Sequence[str] = ()) -> Path:

@@ -64,7 +64,6 @@ set_data, data_of = lib.cpShapeSetUserData, lib.cpShapeGetUserData
 # -- spaces -----------------------------------------------------------------------------------
 
 
-@cython.cfunc
 def new_space(slop: cython.double) -> Handle:
     """Return a space. slop: the overlap that is left in steady contact, metres.
 
@@ -77,7 +76,6 @@ def new_space(slop: cython.double) -> Handle:
     return space
 
 
-@cython.cfunc
 def step(space: Handle, h: cython.double, bias: cython.double) -> cython.void:
     """Step by h seconds, as if the last step had been as long.
 
@@ -92,7 +90,6 @@ def step(space: Handle, h: cython.double, bias: cython.double) -> cython.void:
 # -- bodies and shapes ------------------------------------------------------------------------
 
 
-@cython.cfunc
 def new_body(mass: cython.double, moment: cython.double, number: cython.int) -> Handle:
     """Return a body, which is found by its number in contacts."""
     body: Handle = lib.cpBodyNew(mass, moment)
@@ -101,7 +98,6 @@ def new_body(mass: cython.double, moment: cython.double, number: cython.int) -> 
     return body
 
 
-@cython.cfunc
 def new_ground(number: cython.int) -> Handle:
     """Return a body that stands still."""
     body: Handle = lib.cpBodyNewStatic()
@@ -109,7 +105,6 @@ def new_ground(number: cython.int) -> Handle:
     return body
 
 
-@cython.cfunc
 def surfaced(shape: Handle, surface: Any) -> Handle:
     """Return a shape with coefficients of friction and restitution."""
     lib.cpShapeSetFriction(shape, surface[0])
@@ -117,7 +112,6 @@ def surfaced(shape: Handle, surface: Any) -> Handle:
     return shape
 
 
-@cython.cfunc
 def new_disc(
     body: Handle, radius: cython.double, x: cython.double, y: cython.double, surface: Any
 ) -> Handle:
@@ -125,13 +119,11 @@ def new_disc(
     return surfaced(lib.cpCircleShapeNew(body, radius, vector(x, y)), surface)
 
 
-@cython.cfunc
 def new_polygon(body: Handle, points: Any, surface: Any) -> Handle:
     """Return a convex polygon on a body, of points (x, y) counter-clockwise."""
     return surfaced(lib.cpPolyShapeNewRaw(body, len(points), vertices(points), 0.0), surface)
 
 
-@cython.cfunc
 def new_segment(body: Handle, ends: Any, surface: Any) -> Handle:
     """Return a wall without thickness between two points."""
     a: Vector = vector(ends[0][0], ends[0][1])
@@ -139,13 +131,11 @@ def new_segment(body: Handle, ends: Any, surface: Any) -> Handle:
     return surfaced(lib.cpSegmentShapeNew(body, a, b, 0.0), surface)
 
 
-@cython.cfunc
 def weight_at(body: Handle, ahead: cython.double) -> cython.void:
     """Put a body's centre of mass ahead of its pose, metres; velocities are those of the centre."""
     lib.cpBodySetCenterOfGravity(body, vector(ahead, 0.0))
 
 
-@cython.cfunc
 def put(body: Handle, x: cython.double, y: cython.double, angle: cython.double) -> cython.void:
     """Put a body's pose somewhere, with sines that do not depend on the C library."""
     n: cython.p_double = doubles(body)
@@ -155,7 +145,6 @@ def put(body: Handle, x: cython.double, y: cython.double, angle: cython.double) 
     turn_to(body, angle, c, s)
 
 
-@cython.cfunc
 def turn_to(body: Handle, angle: cython.double, c: cython.double, s: cython.double) -> cython.void:
     """Turn a body about its centre of mass. c, s: the cosine and the sine of its new angle."""
     n: cython.p_double = doubles(body)
@@ -165,7 +154,6 @@ def turn_to(body: Handle, angle: cython.double, c: cython.double, s: cython.doub
     n[TURN + 5] = n[CENTER + 1] - (n[LEAD] * s + n[LEAD + 1] * c)
 
 
-@cython.cfunc
 @callback("void(cpBody *, double)")
 def move(body: Handle, h: cython.double) -> cython.void:
     """Move a body for h seconds, as the engine does, with sines that depend on no C library."""
@@ -180,21 +168,18 @@ def move(body: Handle, h: cython.double) -> cython.void:
     turn_to(body, angle, c, s)
 
 
-@cython.cfunc
 def aim(body: Handle, vx: cython.double, vy: cython.double, spin: cython.double) -> cython.void:
     """Give a body a velocity."""
     lib.cpBodySetVelocity(body, vector(vx, vy))
     lib.cpBodySetAngularVelocity(body, spin)
 
 
-@cython.cfunc
 def settle_down(body: Handle) -> cython.void:
     """Let a body forget by which velocity its overlaps are to be corrected in the next step."""
     n: cython.p_double = doubles(body)
     n[BIAS] = n[BIAS + 1] = n[SPIN_BIAS] = 0.0
 
 
-@cython.cfunc
 def push(body: Handle, x: cython.double, y: cython.double, torque: cython.double) -> cython.void:
     """Let a force and a torque act on a body in the next step."""
     lib.cpBodySetForce(body, vector(x, y))
@@ -204,7 +189,6 @@ def push(body: Handle, x: cython.double, y: cython.double, torque: cython.double
 # -- joints -----------------------------------------------------------------------------------
 
 
-@cython.cfunc
 def make_joint(
     kind: cython.int,
     joint: Handle,
@@ -249,21 +233,18 @@ def make_joint(
     return made
 
 
-@cython.cfunc
 def set_joint(joint: Handle, bias: cython.double, collide: cython.bint) -> cython.void:
     """Set the share of its error that is left after a second, and whether its bodies collide."""
     lib.cpConstraintSetErrorBias(joint, bias)
     lib.cpConstraintSetCollideBodies(joint, collide)
 
 
-@cython.cfunc
 def set_limits(joint: Handle, least: cython.double, largest: cython.double) -> cython.void:
     """Set the limits of a joint of the kind ROTARY_LIMIT."""
     lib.cpRotaryLimitJointSetMin(joint, least)
     lib.cpRotaryLimitJointSetMax(joint, largest)
 
 
-@cython.cfunc
 @callback("double(cpConstraint *, double)")
 def pull(spring: Handle, length: cython.double) -> cython.double:
     """Return the force of a spring; see `damped`."""
@@ -279,7 +260,6 @@ def pull(spring: Handle, length: cython.double) -> cython.double:
     return stretch * damped(spring, REST, LOST, EFFECTIVE_MASS, closing)
 
 
-@cython.cfunc
 @callback("double(cpConstraint *, double)")
 def twist_back(spring: Handle, angle: cython.double) -> cython.double:
     """Return the torque of a spring that turns; see `damped`."""
@@ -290,7 +270,6 @@ def twist_back(spring: Handle, angle: cython.double) -> cython.double:
     return (angle - rest) * damped(spring, REST_ANGLE, LOST_TURNING, EFFECTIVE_MOMENT, closing)
 
 
-@cython.cfunc
 def damped(
     spring: Handle,
     rest: cython.int,
@@ -316,14 +295,12 @@ def damped(
     return stiffness
 
 
-@cython.cfunc
 def reaction_of(joint: Handle, kind: cython.int) -> Vector:
     """Return the impulse of a joint, PIVOT or GROOVE, on its second body in the last step."""
     n: cython.p_double = doubles(joint) + (GROOVE_IMPULSE if kind == GROOVE else PIVOT_IMPULSE)
     return vector(n[0], n[1])
 
 
-@cython.cfunc
 def twist_of(joint: Handle) -> cython.double:
     """Return the turning impulse of a joint of the kind GEAR on its second body."""
     impulse: cython.double = doubles(joint)[GEAR_IMPULSE]
@@ -333,19 +310,16 @@ def twist_of(joint: Handle) -> cython.double:
 # -- contacts ---------------------------------------------------------------------------------
 
 
-@cython.cfunc
 def first_of(arbiter: Arbiter) -> cython.int:
     """Return the number of a contact's first body."""
     return number_of(arbiter.body_a)
 
 
-@cython.cfunc
 def second_of(arbiter: Arbiter) -> cython.int:
     """Return the number of a contact's second body."""
     return number_of(arbiter.body_b)
 
 
-@cython.cfunc
 def scale(arbiter: Arbiter, ratio: cython.double) -> cython.void:
     """Scale the impulses that the solver keeps of a contact."""
     k: cython.int
@@ -354,7 +328,6 @@ def scale(arbiter: Arbiter, ratio: cython.double) -> cython.void:
         arbiter.contacts[k].jtAcc *= ratio
 
 
-@cython.cfunc
 def set_surface(
     arbiter: Arbiter, friction: cython.double, restitution: cython.double
 ) -> cython.void:
@@ -363,13 +336,11 @@ def set_surface(
     lib.cpArbiterSetRestitution(arbiter, restitution)
 
 
-@cython.cfunc
 def shape_of(arbiter: Arbiter, second: cython.bint) -> Handle:
     """Return a contact's first or second shape."""
     return arbiter.b if second else arbiter.a
 
 
-@cython.cfunc
 def put_point(
     arbiter: Arbiter, ax: cython.double, ay: cython.double, bx: cython.double, by: cython.double
 ) -> cython.void:
@@ -382,7 +353,6 @@ def put_point(
     arbiter.contacts[0].jnAcc = arbiter.contacts[0].jtAcc = 0.0
 
 
-@cython.cfunc
 def point_of(arbiter: Arbiter, k: cython.int, second: cython.bint) -> Vector:
     """Return one of its points, on the surface of its first or second body."""
     if second:
@@ -390,20 +360,17 @@ def point_of(arbiter: Arbiter, k: cython.int, second: cython.bint) -> Vector:
     return lib.cpArbiterGetPointA(arbiter, k)
 
 
-@cython.cfunc
 def depth_of(arbiter: Arbiter, k: cython.int) -> cython.double:
     """Return how deep bodies are in each other in one of its points, metres."""
     apart: cython.double = lib.cpArbiterGetDepth(arbiter, k)
     return -apart
 
 
-@cython.cfunc
 def corner_of(shape: Handle, k: cython.int) -> Vector:
     """Return where a corner of a polygon is."""
     return lib.cpBodyLocalToWorld(lib.cpShapeGetBody(shape), lib.cpPolyShapeGetVert(shape, k))
 
 
-@cython.cfunc
 def place_of(shape: Handle, x: cython.double, y: cython.double) -> Vector:
     """Return where a point in the frame of a shape's body is."""
     return lib.cpBodyLocalToWorld(lib.cpShapeGetBody(shape), vector(x, y))

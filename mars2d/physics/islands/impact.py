@@ -31,7 +31,6 @@ FEW_BODIES = 2
 """Of how many bodies that touch at most this is asked: in a heap some contacts would give way."""
 
 
-@cython.final
 @cython.cclass
 class Impact:
     """The contact of two shapes in a substep: one is of body a, the other of b or of a wall."""
@@ -55,7 +54,6 @@ class Impact:
         """Stand for none yet; body: any."""
         self.a = self.b = body
 
-    @cython.cfunc
     def take(self, arbiter: Arbiter, numbers: list[Body]) -> cython.void:
         """Stand for a contact that the solver knows."""
         first: cython.int = chipmunk.first_of(arbiter)
@@ -65,7 +63,6 @@ class Impact:
         self.b = numbers[second if second >= 0 else first]
         self.normal_x, self.normal_y = arbiter.n.x, arbiter.n.y
 
-    @cython.cfunc
     def look_at(self, arbiter: Arbiter, k: cython.int) -> cython.void:
         """Stand for one of its points."""
         arm: Vector = arbiter.contacts[k].r1
@@ -75,7 +72,6 @@ class Impact:
         self.push, self.friction = arbiter.contacts[k].jnAcc, arbiter.contacts[k].jtAcc
         self.depth = chipmunk.depth_of(arbiter, k)
 
-    @cython.cfunc
     def hit(self) -> cython.void:
         """Add the impulse in this point to those of the bodies."""
         x: cython.double = self.push * self.normal_x - self.friction * self.normal_y
@@ -91,7 +87,6 @@ class Impact:
             self.b.hit_turn += self.arm_bx * y - self.arm_by * x
             self.b.pressure += self.push + abs(self.friction)
 
-    @cython.cfunc
     def work(self, bounce: cython.double, h: cython.double) -> cython.void:
         """Add up for the group how the impulse in this point works, its rebound, and its age.
 
@@ -125,7 +120,6 @@ class Impact:
         group.friction_work += self.friction * ((y + after_y) * nx - (x + after_x) * ny) / 2
         group.excess += self.push * (parting + bounce)
 
-    @cython.cfunc
     def power(self) -> cython.void:
         """Add up for the group the power of the impulse on the motion due to all impulses alone."""
         group: Body = group_of(self.a)
@@ -147,7 +141,6 @@ class Impact:
         group.friction_power += self.friction * (y * self.normal_x - x * self.normal_y)
 
 
-@cython.cfunc
 def group_of(body: Body) -> Body:
     """Return the body that stands for all that touch each other in this substep."""
     above: Body
@@ -158,7 +151,6 @@ def group_of(body: Body) -> Body:
     return body
 
 
-@cython.cfunc
 def join_groups(a: Body, b: Body) -> cython.void:
     """Let one body stand for the groups of both."""
     a, b = group_of(a), group_of(b)
@@ -176,7 +168,6 @@ def join_groups(a: Body, b: Body) -> cython.void:
     a.springy = a.springy or b.springy
 
 
-@cython.cfunc
 def settle(solver: Solver, numbers: list[Body], impact: Impact, h: cython.double) -> cython.void:
     """Let the solver's step of h s add no energy by contacts or joints; add up their work.
 
@@ -209,7 +200,6 @@ def settle(solver: Solver, numbers: list[Body], impact: Impact, h: cython.double
         body.by_friction += body.friction_work
 
 
-@cython.cfunc
 def find_shifts(solver: Solver, h: cython.double) -> cython.void:
     """Find out since when, in the mean, the impulses on each group have acted in a step of h s.
 
@@ -253,7 +243,6 @@ def find_shifts(solver: Solver, h: cython.double) -> cython.void:
             body.shift = middle
 
 
-@cython.cfunc
 def take_hits(solver: Solver, numbers: list[Body], impact: Impact, h: cython.double) -> cython.void:
     """Find the groups that touch, the impulses on each body, and how they work."""
     i: cython.int
@@ -273,7 +262,6 @@ def take_hits(solver: Solver, numbers: list[Body], impact: Impact, h: cython.dou
             impact.work(arbiter.contacts[k].bounce, h)
 
 
-@cython.cfunc
 def look_again(
     solver: Solver, numbers: list[Body], impact: Impact, at_power: cython.bint
 ) -> cython.void:
@@ -297,7 +285,6 @@ def look_again(
                 impact.work(0.0, 0.0)
 
 
-@cython.cfunc
 def weaken_contacts(solver: Solver) -> cython.bint:
     """Weaken contacts that add energy, or more rebound than their restitution; return if any do."""
     weaken: cython.bint = False
@@ -316,7 +303,6 @@ def weaken_contacts(solver: Solver) -> cython.bint:
     return True
 
 
-@cython.cfunc
 def share_of(group: Body) -> cython.double:
     """Return the share of their impulses that a group's contacts may keep, and let that work.
 
@@ -338,7 +324,6 @@ def share_of(group: Body) -> cython.double:
     return share
 
 
-@cython.cfunc
 def spare(group: Body) -> cython.double:
     """Return the part of the energy of a group's impulses that these may add to it.
 
@@ -349,7 +334,6 @@ def spare(group: Body) -> cython.double:
     return DRIVEN if group.crowd <= DRIVEN_BODIES else 1e300
 
 
-@cython.cfunc
 def weaken_body(
     body: Body, x: cython.double, y: cython.double, turn: cython.double, share: cython.double
 ) -> cython.void:
@@ -362,7 +346,6 @@ def weaken_body(
     body.hit_turn *= share
 
 
-@cython.cfunc
 def scale_all(solver: Solver, numbers: list[Body], impact: Impact) -> cython.void:
     """Let the solver remember only the part of the contacts' impulses that they keep."""
     i: cython.int
@@ -374,7 +357,6 @@ def scale_all(solver: Solver, numbers: list[Body], impact: Impact) -> cython.voi
             chipmunk.scale(solver.arbiters.at(i), group.share)
 
 
-@cython.cfunc
 def take_holds(solver: Solver, h: cython.double) -> cython.void:
     """Find the groups that joints hold, and the impulses on them that no drive or pull explains."""
     tie: Tie
@@ -400,7 +382,6 @@ def take_holds(solver: Solver, h: cython.double) -> cython.void:
             body.held_turn -= body.reaction_turn
 
 
-@cython.cfunc
 def weaken_holds(solver: Solver) -> cython.bint:
     """Weaken joints and contacts that together add energy; return whether any do.
 

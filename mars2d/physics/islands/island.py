@@ -28,7 +28,6 @@ STUCK = 16
 """After how many substeps in a row with bodies too deep in each other they are corrected faster."""
 
 
-@cython.final
 @cython.cclass
 class Accuracy:
     """How finely islands are stepped, as `settings` say: metres, and seconds.
@@ -82,7 +81,6 @@ class Accuracy:
         return self.seam_depth
 
 
-@cython.final
 @cython.cclass
 class Island:
     """Some bodies, and all that they may touch in this control step."""
@@ -129,7 +127,6 @@ class Island:
         self.contact_step = 1e300
         self.impact = Impact(numbers[0])
 
-    @cython.cfunc
     def clear(self) -> cython.void:
         """Make it one without bodies."""
         del self.bodies[:]
@@ -139,7 +136,6 @@ class Island:
 
     # -- before the first substep -------------------------------------------------------------
 
-    @cython.cfunc
     def set_accuracy(self) -> cython.void:
         """Work out the solver's iterations, and how pushes drive bodies into each other."""
         accuracy: Accuracy = self.accuracy
@@ -172,7 +168,6 @@ class Island:
         self.least_load = sqrt(self.most_load)
         self.load = min(max(self.load, self.least_load), self.most_load)
 
-    @cython.cfunc
     def set_contact_step(self) -> cython.void:
         """Work out the longest substep in contact: the pushes that add up use no more than room.
 
@@ -187,7 +182,6 @@ class Island:
         if self.ties:
             self.contact_step = min(self.contact_step, accuracy.spring_step)
 
-    @cython.cfunc
     def adapt_iterations(self) -> cython.void:
         """Learn from overlaps how many pushes add up, and how hard the solver has to try."""
         accuracy: Accuracy = self.accuracy
@@ -203,7 +197,6 @@ class Island:
             self.tries = 0
         self.set_iterations()
 
-    @cython.cfunc
     def set_iterations(self) -> cython.void:
         """Let the solver have more iterations while it has to try harder."""
         count: cython.int = self.iterations
@@ -211,7 +204,6 @@ class Island:
             count = count * settings.ITERATION_FACTOR + 2 * self.tries
         chipmunk.set_iterations(self.solver.space, count)
 
-    @cython.cfunc
     def commit(self) -> cython.void:
         """Take a solver for these bodies alone: that in which most of them are."""
         self.solved = True
@@ -244,7 +236,6 @@ class Island:
         self.set_iterations()
         solver.used = True
 
-    @cython.cfunc
     def find_solver(self) -> Solver:
         """Return the solver in which most of these bodies are, or one that nobody uses."""
         solver: Solver
@@ -280,7 +271,6 @@ class Island:
 
     # -- substeps -----------------------------------------------------------------------------
 
-    @cython.cfunc
     def run(self, duration: cython.double, time: cython.double) -> cython.bint:
         """Step through `duration` s; return whether nobody went further than was thought possible.
 
@@ -334,7 +324,6 @@ class Island:
             body.load = self.load
         return True
 
-    @cython.cfunc
     def measure(self) -> cython.void:
         """Measure all gaps, and find who touches something."""
         body: Body
@@ -350,7 +339,6 @@ class Island:
                 self.any_touch = pair.a.touches = pair.b.touches = True
                 pair.next_touch, pair.a.first_touch = pair.a.first_touch, pair
 
-    @cython.cfunc
     def find_flush(self) -> cython.void:
         """Find the bodies that lie flush, for the solver."""
         room: cython.double = self.accuracy.seam_depth / 8
@@ -365,7 +353,6 @@ class Island:
             if pair.gap < room and not pair.is_wall:
                 pair.lay(room)
 
-    @cython.cfunc
     def hold_back(self) -> cython.void:
         """Leave bodies where the engine moved them that else would be too deep in each other.
 
@@ -383,7 +370,6 @@ class Island:
             if any_back:
                 self.measure()
 
-    @cython.cfunc
     def preload(self) -> cython.void:
         """Press bodies together that touch by a rounding error only, and would part by another."""
         preload: cython.double = self.accuracy.preload
@@ -402,7 +388,6 @@ class Island:
             any_moved = self.preload_again()
             count += 1
 
-    @cython.cfunc
     def preload_again(self) -> cython.bint:
         """Press those together that others were drawn away from; return whether there were any."""
         preload: cython.double = self.accuracy.preload
@@ -420,7 +405,6 @@ class Island:
                     any_moved = True
         return any_moved
 
-    @cython.cfunc
     def look_ahead(self, left: cython.double) -> cython.double:
         """Find who slips and how all move, and return how long the next substep is.
 
@@ -445,7 +429,6 @@ class Island:
             h = min(h, tie.time_to_jerk(accuracy.stretch, accuracy.joint_tolerance))
         return left / ceil(left / h - 1e-9)  # equal substeps settle best, and leave no sliver
 
-    @cython.cfunc
     def depth_of(self, pair: Pair) -> cython.double:
         """Return how deep a pair may be when a blow turns it.
 
@@ -463,7 +446,6 @@ class Island:
             return self.accuracy.touch
         return self.accuracy.entry
 
-    @cython.cfunc
     def contact_limit(self, left: cython.double) -> cython.double:
         """Mark the bodies that slip: those touched or pulled, or too fast for their drive.
 
@@ -510,7 +492,6 @@ class Island:
             self.any_solved = self.any_solved or body.solved
         return h
 
-    @cython.cfunc
     def aim(self, h: cython.double) -> cython.void:
         """Set the velocities of all bodies for a substep of h seconds.
 
@@ -529,7 +510,6 @@ class Island:
             body.holds = body.follows() and brief and body.since <= settings.LINGER
             predict(body, h, self.glide, self.thrust)
 
-    @cython.cfunc
     def glide_on(self, h: cython.double) -> cython.bint:
         """Move all bodies as they are aimed; return whether they touch nothing then.
 
@@ -549,13 +529,11 @@ class Island:
             self.solver.stale = True
         return True
 
-    @cython.cfunc
     def arrive(self, body: Body) -> cython.void:
         """Note that a body has moved in closed form."""
         body.slips = body.slips and body.is_robot and not body.limited and body.accelerates
         body.account_now()
 
-    @cython.cfunc
     def take(self, body: Body, h: cython.double) -> cython.void:
         """Take over how a body has moved in the solver's step of h s.
 
@@ -586,7 +564,6 @@ class Island:
 
     # -- without forces -----------------------------------------------------------------------
 
-    @cython.cfunc
     def pass_through(
         self, duration: cython.double, time: cython.double, stops: cython.bint
     ) -> cython.void:
@@ -619,7 +596,6 @@ class Island:
             elapsed = duration if h == left else elapsed + h
             self.note_touches(time + elapsed, h)
 
-    @cython.cfunc
     def stop_some(self) -> cython.void:
         """Stop each body that moves into something it touches."""
         pair: Pair
@@ -641,7 +617,6 @@ class Island:
                 body.stopped = False
                 body.obey()
 
-    @cython.cfunc
     def note_touches(self, time: cython.double, h: cython.double) -> cython.void:
         """Note who touches whom after h s, without impulses."""
         row: Row
@@ -668,7 +643,6 @@ class Island:
 
     # -- contacts -----------------------------------------------------------------------------
 
-    @cython.cfunc
     def close(self, time: cython.double, h: cython.double) -> cython.void:
         """Add up the notes of a substep of h seconds, which ends at `time`."""
         body: Body
@@ -676,7 +650,6 @@ class Island:
             if body.contacts:
                 close_touches(body, time, h)
 
-    @cython.cfunc
     def note_one(self, arbiter: Arbiter) -> cython.void:
         """Note the solver's data of one contact, if it has pushed or still touches."""
         first: cython.int = chipmunk.first_of(arbiter)
@@ -709,7 +682,6 @@ class Island:
             row.impulse_x, row.impulse_y = -impulse.x, -impulse.y
         note_row(a, b, row)
 
-    @cython.cfunc
     def stand(
         self, row: Row, arbiter: Arbiter, count: cython.int, second: cython.bint
     ) -> cython.void:
@@ -723,7 +695,6 @@ class Island:
             row.x, row.y = (row.x + point.x) / 2, (row.y + point.y) / 2
 
 
-@cython.cfunc
 def touching(a: Body, b: cython.int) -> Pair | None:
     """Return a pair in which a body touches another or a wall now, by its measured gap."""
     pair: Pair
@@ -736,7 +707,6 @@ def touching(a: Body, b: cython.int) -> Pair | None:
     return None
 
 
-@cython.cfunc
 def owner_of(a: Body, b: cython.int, x: cython.double, y: cython.double) -> cython.int:
     """Return the number of the obstacle that a body touches where, of a wall by its number.
 
@@ -749,7 +719,6 @@ def owner_of(a: Body, b: cython.int, x: cython.double, y: cython.double) -> cyth
     return b
 
 
-@cython.cfunc
 def draw_together(pair: Pair, way: cython.double) -> cython.void:
     """Move the bodies of a pair towards each other; their common centre of mass stays.
 
@@ -770,7 +739,6 @@ def draw_together(pair: Pair, way: cython.double) -> cython.void:
     a.placed = True
 
 
-@cython.cfunc
 def opened(pair: Pair) -> cython.double:
     """Return by how much the gap of a pair has grown since its bodies' places were kept."""
     x: cython.double = pair.a.back.x - pair.a.x

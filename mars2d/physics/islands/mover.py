@@ -26,7 +26,6 @@ from mars2d.physics.islands.thrust import Thrust, predict
 from mars2d.physics.islands.tie import Tie
 
 
-@cython.final
 @cython.cclass
 class Mover:
     """All bodies of a world, by their numbers, with their possible contacts and their ties."""
@@ -126,7 +125,6 @@ class Mover:
                     body.obey()
                     body.account_now()
 
-    @cython.cfunc
     def begin(self, duration: cython.double) -> cython.void:
         """Find out who slips, and how fast each body may be."""
         body: Body
@@ -156,7 +154,6 @@ class Mover:
                 push += (body.offset + abs(body.com)) * sway / body.moment
                 body.speed += push * duration
 
-    @cython.cfunc
     def find_islands(self, duration: cython.double) -> cython.void:
         """Mark who may touch something or is held, and find who is in one island.
 
@@ -173,7 +170,6 @@ class Mover:
                 self.neighbours.measure()
             more = self.join()
 
-    @cython.cfunc
     def set_ways(self, duration: cython.double) -> cython.void:
         """Work out how far each body may go."""
         body: Body
@@ -192,7 +188,6 @@ class Mover:
                 home = root(body)
                 body.way = home.fastest + self.accuracy.max_overlap
 
-    @cython.cfunc
     def join(self) -> cython.bint:
         """Join those that may touch or hold each other; return whether anything is new."""
         more: cython.bint = False
@@ -218,7 +213,6 @@ class Mover:
                 more = True
         return more
 
-    @cython.cfunc
     def run_islands(self, duration: cython.double, time: cython.double) -> cython.bint:
         """Step all islands that were not yet; return whether none went further than it could."""
         good: cython.bint = True
@@ -244,7 +238,6 @@ class Mover:
                     body.slack = 2 * body.slack
         return good
 
-    @cython.cfunc
     def is_done(self, island: Island) -> cython.bint:
         """Return whether an island has been stepped as it is.
 
@@ -262,7 +255,6 @@ class Mover:
                     self.begin_again(body)
         return False
 
-    @cython.cfunc
     def begin_again(self, body: Body) -> cython.void:
         """Put a body back to where it was at the beginning; its solver forgets it."""
         solver: Solver
@@ -273,7 +265,6 @@ class Mover:
         body.done = False
         begin_touches_again(body)
 
-    @cython.cfunc
     def make_islands(self) -> cython.void:
         """Make the islands of those that are near."""
         island: Island
@@ -302,7 +293,6 @@ class Mover:
                         island.pairs.append(pair)
         self.add_pairs_of_bodies()
 
-    @cython.cfunc
     def next_island(self) -> Island:
         """Return an island without bodies."""
         island: Island
@@ -317,7 +307,6 @@ class Mover:
         self.found += 1
         return island
 
-    @cython.cfunc
     def add_pairs_of_bodies(self) -> cython.void:
         """Add pairs of bodies that may touch, and ties that may hold."""
         pair: Pair
@@ -334,7 +323,6 @@ class Mover:
 
     # -- who is free --------------------------------------------------------------------------
 
-    @cython.cfunc
     def carry_on(self, duration: cython.double, time: cython.double) -> cython.void:
         """Carry those that nothing can reach, and end the control step."""
         body: Body
@@ -345,7 +333,6 @@ class Mover:
                 self.carry(body, duration)
             body.account_now()
 
-    @cython.cfunc
     def carry(self, body: Body, duration: cython.double) -> cython.void:
         """Move a body that nothing can reach, in closed form."""
         solver: Solver
@@ -357,7 +344,6 @@ class Mover:
         predict(body, duration, self.glide, self.thrust)
         body.advance(duration)
 
-    @cython.cfunc
     def clear_up(self) -> cython.void:
         """Empty the solvers that were not needed, and keep those that were."""
         solver: Solver
@@ -500,7 +486,6 @@ class Mover:
         self.solvers, self.spare = [], []
 
 
-@cython.cfunc
 def root(body: Body) -> Body:
     """Return the body that stands for an island."""
     home: Body = body.home
@@ -510,7 +495,6 @@ def root(body: Body) -> Body:
     return home
 
 
-@cython.cfunc
 def join_homes(a: Body, b: Body) -> cython.void:
     """Join the islands of two bodies; the smaller number stands for both."""
     a.near = b.near = True

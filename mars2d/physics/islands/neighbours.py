@@ -24,7 +24,6 @@ FEW_WALLS = 8
 """And up to this number of walls, those of each body."""
 
 
-@cython.final
 @cython.cclass
 class Neighbours:
     """The pairs of some bodies and walls that may touch soon."""
@@ -49,7 +48,6 @@ class Neighbours:
         self.wide = 3 + int((4.0 * len(bodies)) ** 0.5)
         self.begin()
 
-    @cython.cfunc
     def begin(self) -> cython.void:
         """List nothing yet, but all pairs if there are few."""
         i: cython.int
@@ -64,7 +62,6 @@ class Neighbours:
                 for b in self.bodies[i + 1 :]:
                     self.add(a, b)
 
-    @cython.cfunc
     def add(self, a: Body, b: Body) -> cython.void:
         """List a pair of bodies, a before b."""
         if self.passing and (a.number, b.number) in self.passing:
@@ -78,7 +75,6 @@ class Neighbours:
             for q in b.pieces:
                 self.pairs.append(PiecePair(a, b, None, p, q))
 
-    @cython.cfunc
     def refresh(self) -> cython.bint:
         """List pairs again if a body may move farther than the skin; return whether that was so."""
         if self.skin >= 1e300:
@@ -90,14 +86,12 @@ class Neighbours:
                 return True
         return False
 
-    @cython.cfunc
     def measure(self) -> cython.void:
         """Measure how far apart the circles of all listed pairs are."""
         pair: Pair
         for pair in self.pairs:
             pair.start_gap = pair.apart()
 
-    @cython.cfunc
     def advance(self) -> cython.void:
         """Note that bodies may have moved by their ways."""
         body: Body
@@ -108,7 +102,6 @@ class Neighbours:
 
     # -- walls --------------------------------------------------------------------------------
 
-    @cython.cfunc
     def at_wall(self, body: Body) -> cython.bint:
         """Return whether a body may touch a wall within its way."""
         if body.wall_gap > body.way:
@@ -122,7 +115,6 @@ class Neighbours:
         body.wall_gap = least
         return least <= body.way
 
-    @cython.cfunc
     def list_walls(self, body: Body) -> cython.void:
         """List the walls near a body, with a skin that lasts for many control steps."""
         wall: Wall
@@ -145,7 +137,6 @@ class Neighbours:
 
     # -- pairs --------------------------------------------------------------------------------
 
-    @cython.cfunc
     def list_pairs(self) -> cython.void:
         """List the pairs again, with a skin that lasts for several control steps."""
         furthest: cython.double = 0.0
@@ -160,14 +151,12 @@ class Neighbours:
         for body in self.bodies:
             self.list_near(body, cutoff)
 
-    @cython.cfunc
     def column(self, x: cython.double) -> cython.int:
         """Return the column, or row, of cells that a coordinate is in."""
         at: cython.double = floor(x / self.size)
         at = at - self.wide * floor(at / self.wide)
         return int(at) if 0 < at < self.wide else 0
 
-    @cython.cfunc
     def fill_cells(self, size: cython.double) -> cython.void:
         """Sort the bodies into cells of this size, so that each cell's list ascends."""
         self.size = size
@@ -178,7 +167,6 @@ class Neighbours:
             body.next = self.first[body.cell]
             self.first[body.cell] = body.number
 
-    @cython.cfunc
     def list_near(self, a: Body, cutoff: cython.double) -> cython.void:
         """List a body's pairs with others of larger numbers."""
         wide: cython.int = self.wide

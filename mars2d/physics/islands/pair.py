@@ -17,7 +17,6 @@ from mars2d.physics.islands.piece import Corner, Edge, Piece
 from mars2d.physics.islands.seams import Seams
 
 
-@cython.final
 @cython.cclass
 class Wall:
     """A straight wall: an edge of an obstacle, or edges of several in one line.
@@ -67,7 +66,6 @@ class Wall:
         sides = [(v, -u), (-v, u), (u, v), (-u, -v)]
         self.piece = Piece([(x1, y1), (x2, y2)], sides, 0.0)
 
-    @cython.cfunc
     def owner(self, x: cython.double, y: cython.double) -> cython.int:
         """Return the number of the obstacle that it is of at a point."""
         found: cython.int = self.owners[0][1]
@@ -80,7 +78,6 @@ class Wall:
                 found = number
         return found
 
-    @cython.cfunc
     def hidden(self, x: cython.double, y: cython.double, room: cython.double) -> cython.bint:
         """Return whether a wall that it ends at keeps a body within a circle from it."""
         for end_x, end_y, away_x, away_y, far in self.shades:
@@ -90,7 +87,6 @@ class Wall:
                 return True
         return False
 
-    @cython.cfunc
     def way(self, x: cython.double, y: cython.double) -> tuple[cython.double, cython.double]:
         """Return the shortest way from a point to it."""
         from_x: cython.double = x - self.x
@@ -134,7 +130,6 @@ class Pair:
         else:
             self.wall, self.other, self.radii = wall, wall.other, a.radius
 
-    @cython.cfunc
     def apart(self) -> cython.double:
         """Return how far apart the circles were at the beginning of the control step."""
         x: cython.double = self.b.start_x - self.a.start_x
@@ -143,7 +138,6 @@ class Pair:
             x, y = self.wall.way(self.a.start_x, self.a.start_y)
         return length(x, y) - self.radii
 
-    @cython.cfunc
     def hidden(self) -> cython.bint:
         """Return whether another wall keeps the body from this one in the control step."""
         body: Body = self.a
@@ -152,7 +146,6 @@ class Pair:
             return False
         return wall.hidden(body.start_x, body.start_y, body.radius + body.way)
 
-    @cython.cfunc
     def parts(self) -> cython.bint:
         """Return whether its bodies move apart, but for what they turn."""
         apart: cython.double = -(self.a.vx * self.normal_x + self.a.vy * self.normal_y)
@@ -160,7 +153,6 @@ class Pair:
             apart += self.b.vx * self.normal_x + self.b.vy * self.normal_y
         return apart > 1e-9
 
-    @cython.cfunc
     def measure(self) -> cython.bint:
         """Measure the gap and the normal; return whether they touch."""
         x: cython.double
@@ -175,7 +167,6 @@ class Pair:
         self.normal_x, self.normal_y = x * scale, y * scale
         return self.gap <= 0
 
-    @cython.cfunc
     def time_to_touch(self, h: cython.double, depth: cython.double) -> cython.double:
         """Return for how long they get no deeper than `depth`, or h if that is shorter.
 
@@ -196,11 +187,9 @@ class Pair:
             return h
         return min(h, time_to_close(room, closing, turn))
 
-    @cython.cfunc
     def lay(self, room: cython.double) -> cython.void:
         """Note at corners which faces of two pieces go on in each other, but for this room."""
 
-    @cython.cfunc
     def meet(self) -> cython.void:
         """Find the point where they touch, and how fast each moves into the other there."""
         self.point_x = self.a.x + self.a.radius * self.normal_x
@@ -209,7 +198,6 @@ class Pair:
         self.into_a = -(self.b.vx * self.normal_x + self.b.vy * self.normal_y)
 
 
-@cython.cfunc
 def time_to_close(
     room: cython.double, closing: cython.double, turn: cython.double
 ) -> cython.double:
@@ -222,7 +210,6 @@ def time_to_close(
     return 2 * room / (total + 1e-12)
 
 
-@cython.final
 @cython.cclass
 class PiecePair(Pair):
     """Two convex pieces.
@@ -254,7 +241,6 @@ class PiecePair(Pair):
         self.p, self.q = p, q
         self.rounding = p.radius + q.radius
 
-    @cython.cfunc
     def measure(self) -> cython.bint:
         """Measure the gap and the normal; return whether they touch."""
         self.between_x, self.between_y = -self.a.x, -self.a.y
@@ -281,7 +267,6 @@ class PiecePair(Pair):
         self.gap = far - self.rounding
         return self.gap <= 0
 
-    @cython.cfunc
     def part(self, p: Piece, q: Piece, second: cython.bint) -> cython.void:
         """Find out whether an edge of one piece parts it better from another than those before.
 
@@ -305,7 +290,6 @@ class PiecePair(Pair):
                 self.parted, self.of_second = least, second
                 self.edge_x, self.edge_y, self.reach = edge.x, edge.y, edge.reach
 
-    @cython.cfunc
     def approach(self, p: Piece, q: Piece, sign: cython.double) -> cython.void:
         """Find the shortest way from an edge of one piece to a corner of another.
 
@@ -335,7 +319,6 @@ class PiecePair(Pair):
                     self.way_x, self.way_y = sign * way_x, sign * way_y
             last = corner
 
-    @cython.cfunc
     def time_to_touch(self, h: cython.double, depth: cython.double) -> cython.double:
         """Return for how long they get no deeper than `depth`."""
         turning: cython.double = self.time_along_edge(h, depth)
@@ -343,7 +326,6 @@ class PiecePair(Pair):
             return h
         return max(turning, self.time_along_normal(h, depth))
 
-    @cython.cfunc
     def time_along_edge(self, h: cython.double, depth: cython.double) -> cython.double:
         """Return the time, at most h, that follows from the edge which parts them now.
 
@@ -390,7 +372,6 @@ class PiecePair(Pair):
                 h = min(h, time_to_close(room, closing, turn))
         return h
 
-    @cython.cfunc
     def time_along_normal(self, h: cython.double, depth: cython.double) -> cython.double:
         """Return the time, at most h, that follows from the present normal.
 
@@ -428,7 +409,6 @@ class PiecePair(Pair):
                     h = min(h, time_to_close(room, closing, turns))
         return h
 
-    @cython.cfunc
     def clear(self, h: cython.double, room: cython.double) -> cython.bint:
         """Return whether no corner of one comes nearer than that to one of the other within h s."""
         a: Body = self.a
@@ -452,7 +432,6 @@ class PiecePair(Pair):
             back = min(back, place)
         return back - front + room >= 0.0
 
-    @cython.cfunc
     def lay(self, room: cython.double) -> cython.void:
         """Note at corners which faces of two pieces go on in each other, but for this room."""
         x: cython.double = self.between_x
@@ -466,7 +445,6 @@ class PiecePair(Pair):
             join(self.q.shape)
             self.b.laid = True
 
-    @cython.cfunc
     def meet_at_corners(self, room: cython.double) -> cython.bint:
         """Return whether edges lie against each other, and corners by corners."""
         edge: Edge
@@ -485,7 +463,6 @@ class PiecePair(Pair):
                     return True
         return False
 
-    @cython.cfunc
     def meet(self) -> cython.void:
         """Find the middle of their common face, and how fast each moves into the other there.
 

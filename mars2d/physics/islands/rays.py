@@ -19,7 +19,6 @@ from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import cosine_sine, length
 
 
-@cython.final
 @cython.cclass
 class Things:
     """What rays may hit: convex rings of edges, counter-clockwise, and discs.
@@ -79,7 +78,6 @@ class Things:
         """Return the x of a thing."""
         return self.x[thing]
 
-    @cython.cfunc
     def from_x(self, x: cython.double) -> cython.int:
         """Return how many of the things in order have a smaller x."""
         low: cython.int = 0
@@ -96,7 +94,6 @@ class Things:
         return low
 
 
-@cython.final
 @cython.cclass
 class Caster:
     """Casts fans of rays at things, fan by fan."""
@@ -196,7 +193,6 @@ class Caster:
         self.look()
         return self.nearest
 
-    @cython.cfunc
     def look(self) -> cython.void:
         """Cast the fan, or find the nearest points."""
         things: Things
@@ -212,7 +208,6 @@ class Caster:
                     break
                 self.meet(things, thing)
 
-    @cython.cfunc
     def meet(self, things: Things, thing: cython.int) -> cython.void:
         """Let the fan's rays meet a thing."""
         x: cython.double = things.x[thing] - self.x
@@ -234,7 +229,6 @@ class Caster:
         else:
             self.meet_ring(things, int(things.first[thing]), int(things.edges[thing]), owner)
 
-    @cython.cfunc
     def approach(self, things: Things, thing: cython.int) -> cython.void:
         """Find the nearest point of a thing.
 
@@ -271,13 +265,11 @@ class Caster:
         if things.solid:
             self.note(-least if inside else least, x, y)
 
-    @cython.cfunc
     def note(self, far: cython.double, x: cython.double, y: cython.double) -> cython.void:
         """Keep a point that is near enough."""
         if far < self.reach:
             self.nearest.append((far, x, y))
 
-    @cython.cfunc
     def meet_disc(
         self, x: cython.double, y: cython.double, radius: cython.double, owner: cython.int
     ) -> cython.void:
@@ -304,7 +296,6 @@ class Caster:
             if inner >= 0.0:
                 self.end(ray, max((c * x + s * y) - sqrt(inner), 0.0), owner)
 
-    @cython.cfunc
     def meet_ring(
         self, things: Things, first: cython.int, edges: cython.int, owner: cython.int
     ) -> cython.void:
@@ -326,14 +317,12 @@ class Caster:
             if inside or area < 0.0:
                 self.meet_edge(things, edge, area, owner)
 
-    @cython.cfunc
     def area(self, things: Things, edge: cython.int) -> cython.double:
         """Return the signed area of the parallelogram spanned by an edge and the start, m^2."""
         ex: cython.double = things.bx[edge] - things.ax[edge]
         ey: cython.double = things.by[edge] - things.ay[edge]
         return (things.ax[edge] - self.x) * ey - (things.ay[edge] - self.y) * ex
 
-    @cython.cfunc
     def meet_edge(
         self, things: Things, edge: cython.int, area: cython.double, owner: cython.int
     ) -> cython.void:
@@ -377,7 +366,6 @@ class Caster:
                 # The ray (c, s) t meets the line a + e u at t = (a x e) / ((c, s) x e).
                 self.end(ray, area / (c * ey - s * ex), owner)
 
-    @cython.cfunc
     def meet_closely(
         self,
         ray: cython.int,
@@ -422,7 +410,6 @@ class Caster:
 
     # -- rays ---------------------------------------------------------------------------------
 
-    @cython.cfunc
     def diamond(self, x: cython.double, y: cython.double) -> cython.double:
         """Return the diamond angle of a vector from the fan's heading."""
         ahead: cython.double = self.c * x + self.s * y
@@ -435,7 +422,6 @@ class Caster:
             return 2.0 - way
         return way if way >= 0.0 else 4.0 + way
 
-    @cython.cfunc
     def below(self, angle: cython.double) -> cython.int:
         """Return how many rays come before a diamond angle, in several turns from 0 on."""
         turns: cython.int = 0
@@ -452,19 +438,16 @@ class Caster:
                 high = middle
         return low + turns
 
-    @cython.cfunc
     def end_of(self, first: cython.int, angle: cython.double) -> cython.int:
         """Return the ray after the last one up to a diamond angle, at most a turn on."""
         return min(self.below(angle), first + self.count)
 
-    @cython.cfunc
     def end(self, ray: cython.int, distance: cython.double, owner: cython.int) -> cython.void:
         """Let a ray end after a distance, if it does not end before."""
         k: cython.int = self.at + ray
         if distance < self.lengths[k] or (distance == self.lengths[k] and owner < self.owners[k]):
             self.lengths[k], self.owners[k] = distance, owner
 
-    @cython.cfunc
     def end_all(self, owner: cython.int) -> cython.void:
         """Let all rays of the fan end where they start."""
         k: cython.int
@@ -472,7 +455,6 @@ class Caster:
             self.end(k, 0.0, owner)
 
 
-@cython.cfunc
 def aimed(apart: cython.double) -> cython.double:
     """Return the distance within which a ray counts as aimed at a point `apart` away, metres."""
     return min(1e-13 * (1.0 + apart), 5e-10 * apart)

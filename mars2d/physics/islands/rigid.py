@@ -55,7 +55,6 @@ class RigidBody(Progress):
         self.rest_twist_grip = self.rest_grip * self.lever
         self.slows, self.stops = self.grip / self.mass, self.twist_grip / self.moment
 
-    @cython.cfunc
     def locate(self) -> cython.void:
         """Work out where its circle and its corners are."""
         if self.is_disc:
@@ -68,7 +67,6 @@ class RigidBody(Progress):
         for piece in self.pieces:
             piece.turn(c, s)
 
-    @cython.cfunc
     def lift(self) -> cython.void:
         """Forget that its faces go on in other bodies."""
         piece: Piece
@@ -79,27 +77,23 @@ class RigidBody(Progress):
                 corner.ends_in = self.number if corner.ends_in == self.number else -1
                 corner.starts_in = self.number if corner.starts_in == self.number else -1
 
-    @cython.cfunc
     def place_com(self, angle: cython.double) -> cython.void:
         """Work out where its centre of mass lies from its pose at a heading."""
         c, s = cosine_sine(angle)
         self.com_x, self.com_y = self.com * c, self.com * s
 
-    @cython.cfunc
     def kinetic_at(
         self, vx: cython.double, vy: cython.double, spin: cython.double
     ) -> cython.double:
         """Return its kinetic energy at a velocity of its centre of mass, J."""
         return 0.5 * (self.mass * (vx * vx + vy * vy) + self.moment * spin * spin)
 
-    @cython.cfunc
     def account(self, vx: cython.double, vy: cython.double, spin: cython.double) -> cython.void:
         """Count the momentum gained at a velocity as work of its drive, or of the floor."""
         energy: cython.double = self.kinetic_at(vx, vy, spin)
         self.by_holder += energy - self.energy
         self.energy = energy
 
-    @cython.cfunc
     def account_now(self) -> cython.void:
         """Do the same at its present velocity."""
         if self.com != 0.0:

@@ -16,7 +16,6 @@ class State:
     vy: cython.double
     spin: cython.double
 
-    @cython.cfunc
     def go_to(self, other: State) -> cython.void:
         """Take the pose and the rates of another."""
         self.x, self.y, self.angle = other.x, other.y, other.angle
@@ -39,7 +38,6 @@ class Progress(State):
     by_joint: cython.double
     by_hand: cython.double
 
-    @cython.cfunc
     def begin_with(self, other: Progress) -> cython.void:
         """Take all of another."""
         self.go_to(other)

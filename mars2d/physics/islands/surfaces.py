@@ -14,7 +14,6 @@ from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.library import Arbiter, Handle, Vector, callback, thing_at
 
 
-@cython.final
 @cython.cclass
 class Surface:
     """That of a body or wall. rubs, bounces: numbers of materials, or -1."""
@@ -33,7 +32,6 @@ class Surface:
         self.rubs, self.bounces = rubs, bounces
 
 
-@cython.final
 @cython.cclass
 class Surfaces:
     """Those of all bodies and walls, by number; and how two make a contact."""
@@ -68,7 +66,6 @@ class Surfaces:
         self.frictions, self.statics, self.restitutions = pairs
         self.sticks, self.count = sticks, round(sqrt(len(pairs[0])))
 
-    @cython.cfunc
     def settle(self, arbiter: Arbiter) -> cython.void:
         """Set friction and restitution of a contact, as the solver is to use them now."""
         if chipmunk.count_of(arbiter) == 0:
@@ -94,14 +91,12 @@ class Surfaces:
             friction = static
         chipmunk.set_surface(arbiter, friction, restitution)
 
-    @cython.cfunc
     def surface_of(self, number: cython.int) -> Surface:
         """Return the surface of a body or wall."""
         if number >= 0:
             return self.of_bodies[number]
         return self.of_walls[-1 - number]
 
-    @cython.cfunc
     def slip(self, arbiter: Arbiter, first: cython.int, second: cython.int) -> cython.double:
         """Return how fast two bodies slide along each other, before the substep, m/s."""
         vx: cython.double = 0.0
@@ -124,7 +119,6 @@ class Surfaces:
         return abs(along)
 
 
-@cython.cfunc
 @callback("void(cpArbiter *, cpSpace *, void *)")
 def settle_contact(arbiter: Arbiter, _space: Handle, data: Handle) -> cython.void:
     """Let surfaces settle a contact before it is solved."""
@@ -132,7 +126,6 @@ def settle_contact(arbiter: Arbiter, _space: Handle, data: Handle) -> cython.voi
     surfaces.settle(arbiter)
 
 
-@cython.cfunc
 def blend(rule: cython.int, p: cython.double, q: cython.double) -> cython.double:
     """Return a rule's result for the values of two surfaces, the same in both orders."""
     if rule == 1:
