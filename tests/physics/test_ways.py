@@ -50,6 +50,31 @@ def test_what_slides_beside_a_smooth_wall_goes_as_far_as_in_the_open(sampling_ti
         assert gone == pytest.approx(4 / (2 * 0.6 * GRAVITY), rel=1e-6)
 
 
+@each_case("sampling_time", [0.5, 0.1, 0.005])
+def test_floor_and_drive_give_no_more_momentum_than_they_can_while_bodies_hit(sampling_time):
+    """A box turns and pushes a puck away again and again; a robot gathers speed as it does."""
+    floor = {"ground_friction": 0.05, "friction": 0.0, "restitution": 0.0}
+    drive = Unicycle(max_force=0.5, force_limited=True)
+    robot = Robot(pose=(0, 9, 0), diameter=0.2, friction=0.0, drive=drive)
+    for spin in (0.0, -1.6):
+        props = [
+            Box(pose=(0, 0, 0), velocity=(0.6, 0, 1.2), **floor),
+            Puck(pose=(0.3, 0, 0), velocity=(0.6, 0, spin), **floor),
+            Puck(pose=(0.3, 9, 0), velocity=(0.1, 0, 0), friction=0.0, ground_friction=0.0),
+        ]
+        world = world_of([robot], props, sampling_time=sampling_time, stop_time=1.0)
+        slides = 0.05 * GRAVITY * sum(prop.inertia.mass for prop in props[:2])
+        before = world.momentum.linear
+        while not world.over:
+            world.step([[1.0], [0.0]])
+            after = world.momentum.linear
+            lost = np.linalg.norm((before - after)[:, 1:3].sum(axis=1))
+            gained = (after - before)[0, [0, 3]].sum()
+            assert lost <= slides * sampling_time * (1 + 1e-6)
+            assert gained <= 0.5 * sampling_time * (1 + 1e-6)
+            before = after
+
+
 @each_case("sampling_time", [0.5, 0.1, 0.01])
 def test_a_ball_turns_where_it_touches_also_if_a_control_step_ends_there(sampling_time):
     for late in (-1e-3, 0.0, 1e-12, 1e-3, 2e-3):

@@ -543,15 +543,9 @@ class Island:
         body.ahead = pushed or body.solved
         if pushed or (body.solved and body.com != 0.0):
             self.solver.share_out(body, h, body.shift)
-            body.slips = True
             if not body.solved and body.shift > 0.0 and not body.tied:
-                # From the blow on its drive, or the floor, has acted: as in the open.
-                body.x -= body.shift * body.vx
-                body.y -= body.shift * body.vy
-                body.angle -= body.shift * body.spin
-                predict(body, body.shift, self.glide, self.thrust)
-                body.advance(body.shift)
-                body.account_now()
+                self.strike(body, h)
+            body.slips = True
             return
         solved: cython.bint = body.solved
         body.go_to(body.back)
@@ -561,6 +555,27 @@ class Island:
         if solved:
             body.correct(h)
         self.arrive(body)
+
+    @cython.cfunc
+    def strike(self, body: Body, h: cython.double) -> cython.void:
+        """Let a blow change the velocity of a body in closed form when it came, within h s.
+
+        Its drive, or the floor, acts on it as in the open until then, and from then on.
+        """
+        x: cython.double = body.vx - body.end_x
+        y: cython.double = body.vy - body.end_y
+        turn: cython.double = body.spin - body.end_spin
+        until: cython.double = h - body.shift
+        body.go_to(body.back)
+        if until > 0.0:
+            predict(body, until, self.glide, self.thrust)
+            body.advance(until)
+        body.vx, body.vy, body.spin = body.vx + x, body.vy + y, body.spin + turn
+        body.account_now()
+        body.slips = True
+        predict(body, body.shift, self.glide, self.thrust)
+        body.advance(body.shift)
+        body.account_now()
 
     # -- without forces -----------------------------------------------------------------------
 
