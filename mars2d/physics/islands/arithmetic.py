@@ -170,7 +170,6 @@ def exponential(y: cython.double) -> cython.double:
     r: cython.double = y + n * 6.93147180369123816490e-01
     r = r + n * 1.90821492927058770002e-10
     e: cython.double = 1.0 + r / 13.0
-    k: cython.int
     for k in range(12, 0, -1):
         e = 1.0 + r * e / k
     while n >= 1.0:

@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
+from mars2d.physics.islands.chipmunk import Held
 from mars2d.physics.islands.drive import DrivenBody
 from mars2d.physics.islands.library import Handle
 from mars2d.physics.islands.piece import Piece
 from mars2d.physics.islands.state import Progress, State
+
+if TYPE_CHECKING:
+    from mars2d.physics.islands.contacts import Touch
+    from mars2d.physics.islands.island import Island
+    from mars2d.physics.islands.pair import Pair
+    from mars2d.physics.islands.solver import Solver
 
 
 @cython.cclass
@@ -47,10 +54,10 @@ class Body(DrivenBody):
     way: cython.double  # how far it may go, at most
     load: cython.double  # how many robots' pushes add up on it
     slack: cython.double  # how much further than at its speed it may be thrown, a factor
-    home: object  # the body that stands for its island
+    home: Body  # the body that stands for its island
     fastest: cython.double  # of the island that it stands for
     done: cython.bint  # whether its island has been stepped
-    island: object
+    island: Island
     start_x: cython.double  # where the circle's centre was at the beginning
     start_y: cython.double
     kept: cython.bint  # whether what it was like at the beginning was kept
@@ -67,7 +74,7 @@ class Body(DrivenBody):
     reaction_turn: cython.double
     # impulses of contacts in a substep, and for the group of bodies that touch: how they work
     tied: cython.bint  # whether a joint may have acted on it
-    group: object  # another body on the way to that which stands for the group
+    group: Body  # another body on the way to that which stands for the group
     pressure: cython.double  # N s, the sum of their sizes
     hit_x: cython.double
     hit_y: cython.double
@@ -95,15 +102,15 @@ class Body(DrivenBody):
     hold_energy: cython.double
     # since lists of what is near were made
     moved: cython.double
-    wall_pairs: list[Any]
+    wall_pairs: list[Pair]
     wall_gap: cython.double  # a lower bound of that to the nearest wall
     wall_skin: cython.double  # how far it may move until the list of walls has to be made again
     cell: cython.int
     next: cython.int
-    contacts: list[Any]  # with bodies of larger number, and obstacles
-    first_touch: object  # of the pairs that touch now: one of which it is the first body
+    contacts: list[Touch]  # with bodies of larger number, and obstacles
+    first_touch: Pair | None  # of the pairs that touch now: one of which it is the first body
     # in the solver
-    solver: object
+    solver: Solver | None
     placed: cython.bint  # whether it is elsewhere than the solver thinks
     made: cython.bint
     handle: Handle
@@ -111,7 +118,7 @@ class Body(DrivenBody):
     pivot: Handle  # of a robot with wheels, its motors
     side: Handle  # what holds its wheels across
     gear: Handle
-    shapes: list[Any]
+    shapes: list[Held]
 
     def __init__(self, number: int, is_robot: bool, pieces: list[Piece], surface: Any) -> None:
         """Take its number, its pieces, its friction and restitution; `describe` does the rest."""

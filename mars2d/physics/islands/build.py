@@ -26,6 +26,9 @@ MODULES = (
 CONSTANTS = r"^([A-Z_]+) = (\d+|\d+\.\d+(?: / \d+\.\d+)?|\d+e-\d+)(?:  #.*)?$"
 """Lines that give a name to a number, which is one of C. Whole numbers are divided in C as such."""
 
+IMPORTS = r"^if TYPE_CHECKING:$|^ *from [^\n]+ import (\([^)]*\)|[^\n]*)\n"
+"""Lines that get names from other modules."""
+
 PREFIXES = r"\b(?:chipmunk|library|settings)\.(\w+)"
 """Names of modules that are imported as such."""
 
@@ -155,18 +158,20 @@ def _of_c(text: str) -> str:
     text = re.sub(NEVER_FAILS, r"\1@cython.exceptval(check=False)\n\1def ", text, flags=re.M)
     for base in re.findall(r"^class \w+\((\w+)\)", text, flags=re.M):
         text = text.replace(f"@cython.cclass\nclass {base}", f"@cython.cclass  #\nclass {base}")
-    return text.replace("@cython.cclass\n", "@cython.final\n@cython.cclass\n")
+    text = text.replace("@cython.cclass\n", "@cython.final\n@cython.cclass\n")
+    known = (f"cdef class {name}\n" for name in re.findall(r"^class (\w+):", text, flags=re.M))
+    return "".join(known) + text
 
 
 def joined() -> str:
     """Return the modules as one for Cython."""
     engine = (HERE / "library.pxi").read_text("utf-8")
     engine = engine.replace("cdef Engine engine", f"{struct()}\ncdef Engine engine")
-    parts = [HEAD.format(fingerprint=fingerprint()), engine]
+    parts = []
     named = in_c()
     for name in MODULES:
         text = (HERE / f"{name}.py").read_text(encoding="utf-8")
-        text = re.sub(r"^from [^\n]+ import (\([^)]*\)|[^\n]*)\n", "", text, flags=re.M)
+        text = re.sub(IMPORTS, "", text, flags=re.M)
         text = re.sub(PREFIXES, lambda found: named.get(found[1], found[1]), text)
         text = re.sub(r"\bcython\.Doubles\b", "cython.double[::1]", text)
         text = re.sub(CONSTANTS, _constant, text, flags=re.M)
@@ -174,7 +179,7 @@ def joined() -> str:
         text = re.sub(r"\blib\.cp", "engine.cp", text)
         text = re.sub(r"^@callback\(.*\)$", "@cython.exceptval(check=False)", text, flags=re.M)
         parts.append(f"# -- {name}.py\n{text}")
-    return _of_c("\n".join(parts))
+    return "\n".join([HEAD.format(fingerprint=fingerprint()), engine, _of_c("\n".join(parts))])
 
 
 def compile_into(folder: Path, flags: Sequence[str] = ()) -> Path:

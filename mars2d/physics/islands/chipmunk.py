@@ -61,6 +61,15 @@ count_of, impulse_of = lib.cpArbiterGetCount, lib.cpArbiterTotalImpulse
 corners_of, set_type = lib.cpPolyShapeGetCount, lib.cpShapeSetCollisionType
 set_data, data_of = lib.cpShapeSetUserData, lib.cpShapeGetUserData
 
+
+@cython.cclass
+class Held:
+    """A thing of the engine that Python keeps: a shape, or a joint."""
+
+    handle: Handle
+    ground: Handle
+
+
 # -- spaces -----------------------------------------------------------------------------------
 
 
@@ -158,7 +167,6 @@ def turn_to(body: Handle, angle: cython.double, c: cython.double, s: cython.doub
 def move(body: Handle, h: cython.double) -> cython.void:
     """Move a body for h seconds, as the engine does, with sines that depend on no C library."""
     n: cython.p_double = doubles(body)
-    k: cython.int
     for k in range(2):
         n[CENTER + k] += (n[FAST + k] + n[BIAS + k]) * h
         n[BIAS + k] = 0.0
@@ -322,7 +330,6 @@ def second_of(arbiter: Arbiter) -> cython.int:
 
 def scale(arbiter: Arbiter, ratio: cython.double) -> cython.void:
     """Scale the impulses that the solver keeps of a contact."""
-    k: cython.int
     for k in range(arbiter.count):
         arbiter.contacts[k].jnAcc *= ratio
         arbiter.contacts[k].jtAcc *= ratio

@@ -191,10 +191,7 @@ class Touch:
 
 def note_row(a: Body, b: cython.int, row: Row) -> cython.void:
     """Add a contact of a body with another or an obstacle to the touch whose normal it has."""
-    touch: Touch
-    found: Touch
     most: cython.double = ALIKE
-    likeness: cython.double
     for touch in a.contacts:
         if touch.b == b:
             likeness = touch.likeness(row)
@@ -208,11 +205,8 @@ def note_row(a: Body, b: cython.int, row: Row) -> cython.void:
 
 def close_touches(body: Body, time: cython.double, h: cython.double) -> cython.void:
     """End a substep of h seconds at `time`."""
-    touch: Touch
-    other: Touch
-    passes_on: cython.bint
     for touch in body.contacts:
-        passes_on = False
+        passes_on: cython.bint = False
         if touch.goes_on and touch.now is None:
             for other in body.contacts:
                 passes_on = passes_on or (other.b == touch.b and other.now is not None)
@@ -223,22 +217,19 @@ def close_touches(body: Body, time: cython.double, h: cython.double) -> cython.v
 
 def end_touches(body: Body, time: cython.double) -> cython.void:
     """Note that a body touches nothing of larger number, and no obstacle, from `time` on."""
-    touch: Touch
     for touch in body.contacts:
         touch.end(time)
 
 
 def keep_touches(body: Body) -> cython.void:
     """Keep a body's contacts as they are."""
-    touch: Touch
     for touch in body.contacts:
         touch.keep()
 
 
 def begin_touches_again(body: Body) -> cython.void:
     """Go back to the contacts that were kept, and drop those that are new."""
-    touch: Touch
-    touches: list[Any] = body.contacts
+    touches = body.contacts
     body.contacts = []
     for touch in touches:
         if touch.kept is not None:
@@ -248,16 +239,11 @@ def begin_touches_again(body: Body) -> cython.void:
 
 def lasting_touches(body: Body) -> list[tuple[int, Row]]:
     """Return whom a body touches since contacts were taken, and the last contact with each."""
-    lasting: list[Any] = []
-    touch: Touch
-    for touch in body.contacts:
-        lasting.append((touch.b, touch.last))  # noqa: PERF401 - as in `Mover.rest`
-    return lasting
+    return [(touch.b, touch.last) for touch in body.contacts]
 
 
 def touch_on(body: Body, lasting: list[Any]) -> cython.void:
     """Let a body touch the same as one whose `lasting_touches` these are."""
-    touch: Touch
     body.contacts = []
     for b, last in lasting:
         touch = Touch(body.number, b, last)
@@ -267,10 +253,8 @@ def touch_on(body: Body, lasting: list[Any]) -> cython.void:
 
 def take_touches(bodies: list[Body]) -> list[Touch]:
     """Return the contacts since the last call by time, a, b and normal, and forget the ended."""
-    taken: list[Any] = []
-    left: list[Any]
-    body: Body
-    touch: Touch
+    taken: list[Touch] = []
+    left: list[Touch]
     for body in bodies:
         if not body.contacts:
             continue

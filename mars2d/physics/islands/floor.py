@@ -104,7 +104,6 @@ class Glide:
     def integral(self, x: cython.double, by: cython.double) -> cython.double:
         """Return the time until x is left of the slow speed; by > 0: weighed by y^by, at y left."""
         total: cython.double = 0.0
-        k: cython.int
         for k in range(len(self.nodes)):
             node: cython.double = self.nodes[k]
             weight: cython.double = self.weights[k]
@@ -154,7 +153,6 @@ class Glide:
         high: cython.double = 1.0
         d: cython.double = sqrt(self.slow * self.slow + self.other * self.other)
         x: cython.double = max(1 - self.rate * h / max(d, 1e-150), 0.0)
-        _round: cython.int
         for _round in range(30):
             gone: cython.double = self.integral(x, 0.0)
             if gone >= h:

@@ -36,8 +36,6 @@ def lay(
     may be off.
     """
     found: cython.bint = False
-    k: cython.int
-    i: cython.int
     for k in range(len(p.edges)):
         face: Edge = p.edges[k]
         start: Corner = p.corners[k]
@@ -112,7 +110,6 @@ class Flush:
         """
         by: cython.int = chipmunk.first_of(arbiter) if second else chipmunk.second_of(arbiter)
         found: cython.bint = False
-        k: cython.int
         for k in range(len(self.piece.corners)):
             corner: Corner = self.piece.corners[k]
             if corner.ends_in >= 0 and corner.ends_in != by:
@@ -157,7 +154,6 @@ class Flush:
         deepest: cython.double = -1.0
         px: cython.double = 0.0
         py: cython.double = 0.0
-        corner: Corner
         for corner in slider.corners:
             at: Vector = chipmunk.place_of(shape, corner.local_x, corner.local_y)
             x: cython.double = at.x - slider.radius * fx

@@ -12,7 +12,6 @@ from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.library import Arbiter, Vector
 from mars2d.physics.islands.solver import Solver
-from mars2d.physics.islands.tie import Tie
 
 REBOUND = 0.1
 """How much faster than by its restitution a contact may throw back a body that it has stopped.
@@ -125,8 +124,6 @@ class Impact:
         group: Body = group_of(self.a)
         x: cython.double = 0.0
         y: cython.double = 0.0
-        body: Body
-        turn: cython.double
         if self.has_b:
             body = self.b
             turn = body.hit_turn / body.moment
@@ -143,11 +140,9 @@ class Impact:
 
 def group_of(body: Body) -> Body:
     """Return the body that stands for all that touch each other in this substep."""
-    above: Body
     while body.group is not body:
-        above = body.group
-        body.group = above.group
-        body = above
+        body.group = body.group.group
+        body = body.group
     return body
 
 
@@ -174,7 +169,6 @@ def settle(solver: Solver, numbers: list[Body], impact: Impact, h: cython.double
     Of bodies that touch or hold each other, all impulses are weakened by one factor, so momentum is
     kept. impact: any, to work with.
     """
-    body: Body
     for body in solver.bodies:
         body.group, body.springy, body.tied = body, False, False
         body.hit_x = body.hit_y = body.hit_turn = body.pressure = 0.0
@@ -208,9 +202,6 @@ def find_shifts(solver: Solver, h: cython.double) -> cython.void:
     drives, floors, joints and pulls have given. Else it was an impact: it acted since bodies came
     to touch. Of what touched before nothing is known.
     """
-    body: Body
-    group: Body
-    tie: Tie
     for body in solver.bodies:
         body.held_by, body.lasting = 0.0, True
     for tie in solver.ties:
@@ -245,8 +236,6 @@ def find_shifts(solver: Solver, h: cython.double) -> cython.void:
 
 def take_hits(solver: Solver, numbers: list[Body], impact: Impact, h: cython.double) -> cython.void:
     """Find the groups that touch, the impulses on each body, and how they work."""
-    i: cython.int
-    k: cython.int
     for i in range(solver.arbiters.count()):
         arbiter: Arbiter = solver.arbiters.at(i)
         impact.take(arbiter, numbers)
@@ -266,9 +255,6 @@ def look_again(
     solver: Solver, numbers: list[Body], impact: Impact, at_power: cython.bint
 ) -> cython.void:
     """Find the power of contacts' impulses on the motion due to them alone, or again their work."""
-    i: cython.int
-    k: cython.int
-    body: Body
     for body in solver.bodies:
         if at_power:
             body.push_power = body.friction_power = 0.0
@@ -288,8 +274,6 @@ def look_again(
 def weaken_contacts(solver: Solver) -> cython.bint:
     """Weaken contacts that add energy, or more rebound than their restitution; return if any do."""
     weaken: cython.bint = False
-    body: Body
-    group: Body
     for body in solver.bodies:
         if body.group is body:
             body.share = share_of(body)
@@ -348,8 +332,6 @@ def weaken_body(
 
 def scale_all(solver: Solver, numbers: list[Body], impact: Impact) -> cython.void:
     """Let the solver remember only the part of the contacts' impulses that they keep."""
-    i: cython.int
-    group: Body
     for i in range(solver.arbiters.count()):
         impact.take(solver.arbiters.at(i), numbers)
         group = group_of(impact.a)
@@ -359,9 +341,6 @@ def scale_all(solver: Solver, numbers: list[Body], impact: Impact) -> cython.voi
 
 def take_holds(solver: Solver, h: cython.double) -> cython.void:
     """Find the groups that joints hold, and the impulses on them that no drive or pull explains."""
-    tie: Tie
-    body: Body
-    group: Body
     for tie in solver.ties:
         tie.a.tied = tie.b.tied = True
         join_groups(tie.a, tie.b)
@@ -387,8 +366,6 @@ def weaken_holds(solver: Solver) -> cython.bint:
 
     Those of a group with a spring may: it gives what it took before.
     """
-    body: Body
-    group: Body
     for body in solver.bodies:
         body.hold_work = body.hold_energy = 0.0
         body.share = 1.0

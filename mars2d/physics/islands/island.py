@@ -139,7 +139,6 @@ class Island:
     def set_accuracy(self) -> cython.void:
         """Work out the solver's iterations, and how pushes drive bodies into each other."""
         accuracy: Accuracy = self.accuracy
-        body: Body
         robots: cython.int = 0
         strongest: cython.double = 0.0
         push: cython.double = 0.0
@@ -209,25 +208,18 @@ class Island:
         self.solved = True
         self.solver = self.find_solver()
         solver: Solver = self.solver
-        k: cython.int
-        body: Body
-        one: Solver
-        for k in range(len(solver.bodies) - 1, -1, -1):
-            body = solver.bodies[k]
+        for body in solver.bodies[::-1]:
             if body.island is not self:
                 solver.leave(body)
         for body in self.bodies:
             if body.solver is not solver:
                 if body.solver is not None:
-                    one = body.solver
-                    one.leave(body)
+                    body.solver.leave(body)
                 solver.enter(body)
-        pair: Pair
         for pair in self.pairs:
             if pair.is_wall and pair.walled_in is not solver.walls:
                 solver.wall_off(pair.wall)
                 pair.walled_in = solver.walls
-        tie: Tie
         for tie in self.ties:
             solver.tie(tie)
         solver.hurries = False
@@ -238,21 +230,16 @@ class Island:
 
     def find_solver(self) -> Solver:
         """Return the solver in which most of these bodies are, or one that nobody uses."""
-        solver: Solver
-        one: Solver
         most: cython.int = 0
-        body: Body
-        other: Body
         for body in self.bodies:
             if body.solver is None:
                 continue
-            one = body.solver
             count: cython.int = 0
             for other in self.bodies:
-                if other.solver is one:
+                if other.solver is body.solver:
                     count += 1
             if count > most:
-                most, solver = count, one
+                most, solver = count, body.solver
             if 2 * most >= len(self.bodies):
                 break
         if most > 0:
@@ -261,11 +248,7 @@ class Island:
             solver = self.spare.pop()
             solver.idle = False
         else:
-            solver = Solver(
-                self.accuracy.slop,
-                self.accuracy.seam_depth,
-                self.surfaces,
-            )
+            solver = Solver(self.accuracy.slop, self.accuracy.seam_depth, self.surfaces)
             self.solvers.append(solver)
         return solver
 
@@ -277,11 +260,7 @@ class Island:
         time: at the beginning, s.
         """
         elapsed: cython.double = 0.0
-        h: cython.double
-        left: cython.double
         count: cython.int = 0
-        k: cython.int
-        body: Body
         self.set_accuracy()
         self.measure()
         for body in self.bodies:
@@ -326,8 +305,6 @@ class Island:
 
     def measure(self) -> cython.void:
         """Measure all gaps, and find who touches something."""
-        body: Body
-        pair: Pair
         self.any_touch = False
         self.deepest = 0.0
         for body in self.bodies:
@@ -342,8 +319,6 @@ class Island:
     def find_flush(self) -> cython.void:
         """Find the bodies that lie flush, for the solver."""
         room: cython.double = self.accuracy.seam_depth / 8
-        body: Body
-        pair: Pair
         for body in self.bodies:
             if body.laid:
                 body.lift()
@@ -358,7 +333,6 @@ class Island:
 
         It moved them by the velocities that they had, for which gaps are known to be wide enough.
         """
-        pair: Pair
         any_back: cython.bint = self.deepest > self.accuracy.entry
         while any_back:
             any_back = False
@@ -374,8 +348,6 @@ class Island:
         """Press bodies together that touch by a rounding error only, and would part by another."""
         preload: cython.double = self.accuracy.preload
         any_moved: cython.bint = False
-        body: Body
-        pair: Pair
         for body in self.bodies:
             body.back.go_to(body)
         for pair in self.pairs:
@@ -392,17 +364,14 @@ class Island:
         """Press those together that others were drawn away from; return whether there were any."""
         preload: cython.double = self.accuracy.preload
         any_moved: cython.bint = False
-        body: Body
-        pair: Pair
         for body in self.bodies:
-            found: object = body.first_touch
-            while found is not None:
-                pair = found
-                found = pair.next_touch
+            pair = body.first_touch
+            while pair is not None:
                 gap: cython.double = pair.gap + opened(pair)
                 if gap > -preload / 8:
                     draw_together(pair, preload + gap)
                     any_moved = True
+                pair = pair.next_touch
         return any_moved
 
     def look_ahead(self, left: cython.double) -> cython.double:
@@ -411,8 +380,6 @@ class Island:
         left: s, until the end.
         """
         accuracy: Accuracy = self.accuracy
-        body: Body
-        tie: Tie
         for tie in self.ties:
             tie.measure()
             if tie.holds():
@@ -420,7 +387,6 @@ class Island:
         h: cython.double = self.contact_limit(left)
         for body in self.bodies:
             body.look()
-        pair: Pair
         for body in self.bodies:
             h = min(h, body.time_to_turn(accuracy.entry / 8))
         for pair in self.pairs:
@@ -452,7 +418,6 @@ class Island:
         Returns how long a substep may be for them, at most `left`.
         """
         accuracy: Accuracy = self.accuracy
-        body: Body
         h: cython.double = left
         self.any_solved = False
         for body in self.bodies:
@@ -500,7 +465,6 @@ class Island:
         afar hits with its momentum alone, without its drive's force.
         """
         brief: cython.bint = h <= self.contact_step
-        body: Body
         for body in self.bodies:
             body.back.go_to(body)
             if body.solved:
@@ -515,7 +479,6 @@ class Island:
 
         If they do they are back where they were, for the solver.
         """
-        body: Body
         for body in self.bodies:
             body.advance(h)
         self.measure()
@@ -556,7 +519,6 @@ class Island:
             body.correct(h)
         self.arrive(body)
 
-    @cython.cfunc
     def strike(self, body: Body, h: cython.double) -> cython.void:
         """Let a blow change the velocity of a body in closed form when it came, within h s.
 
@@ -588,10 +550,6 @@ class Island:
         the rest of it, and a prop for good.
         """
         elapsed: cython.double = 0.0
-        h: cython.double
-        left: cython.double
-        body: Body
-        pair: Pair
         self.measure()
         while elapsed < duration:
             for body in self.bodies:
@@ -613,8 +571,6 @@ class Island:
 
     def stop_some(self) -> cython.void:
         """Stop each body that moves into something it touches."""
-        pair: Pair
-        body: Body
         for pair in self.pairs:
             if pair.gap > 0:
                 continue
@@ -634,9 +590,6 @@ class Island:
 
     def note_touches(self, time: cython.double, h: cython.double) -> cython.void:
         """Note who touches whom after h s, without impulses."""
-        row: Row
-        pair: Pair
-        body: Body
         if self.any_touch:
             for body in self.bodies:
                 body.before_x, body.before_y, body.before_spin = body.vx, body.vy, body.spin
@@ -660,7 +613,6 @@ class Island:
 
     def close(self, time: cython.double, h: cython.double) -> cython.void:
         """Add up the notes of a substep of h seconds, which ends at `time`."""
-        body: Body
         for body in self.bodies:
             if body.contacts:
                 close_touches(body, time, h)
@@ -701,7 +653,6 @@ class Island:
         self, row: Row, arbiter: Arbiter, count: cython.int, second: cython.bint
     ) -> cython.void:
         """Put a row at the middle of a contact's points on one of its bodies."""
-        point: Vector
         if count > 0:
             point = chipmunk.point_of(arbiter, 0, second)
             row.x, row.y = point.x, point.y
@@ -712,14 +663,10 @@ class Island:
 
 def touching(a: Body, b: cython.int) -> Pair | None:
     """Return a pair in which a body touches another or a wall now, by its measured gap."""
-    pair: Pair
-    found: object = a.first_touch
-    while found is not None:
-        pair = found
-        if pair.other == b:
-            return pair
-        found = pair.next_touch
-    return None
+    pair = a.first_touch
+    while pair is not None and pair.other != b:
+        pair = pair.next_touch
+    return pair
 
 
 def owner_of(a: Body, b: cython.int, x: cython.double, y: cython.double) -> cython.int:
@@ -727,7 +674,6 @@ def owner_of(a: Body, b: cython.int, x: cython.double, y: cython.double) -> cyth
 
     A wall may be of several obstacles.
     """
-    pair: Pair
     for pair in a.wall_pairs:
         if pair.other == b:
             return pair.wall.owner(x, y)

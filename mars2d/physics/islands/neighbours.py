@@ -15,7 +15,6 @@ from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.pair import Pair, PiecePair, Wall
-from mars2d.physics.islands.piece import Piece
 
 FEW = 32
 """Up to this number of bodies, all pairs are listed once and for all."""
@@ -50,16 +49,13 @@ class Neighbours:
 
     def begin(self) -> cython.void:
         """List nothing yet, but all pairs if there are few."""
-        i: cython.int
-        a: Body
-        b: Body
         self.pairs, self.skin = [], -1.0
         for a in self.bodies:
             a.wall_gap, a.wall_skin = -1.0 if self.walls else 1e300, -1.0
         if len(self.bodies) <= FEW:
             self.skin = 1e300
-            for i, a in enumerate(self.bodies):
-                for b in self.bodies[i + 1 :]:
+            for a in self.bodies:
+                for b in self.bodies[a.number + 1 :]:
                     self.add(a, b)
 
     def add(self, a: Body, b: Body) -> cython.void:
@@ -69,8 +65,6 @@ class Neighbours:
         if a.is_disc and b.is_disc:
             self.pairs.append(Pair(a, b, None))
             return
-        p: Piece
-        q: Piece
         for p in a.pieces:
             for q in b.pieces:
                 self.pairs.append(PiecePair(a, b, None, p, q))
@@ -79,7 +73,6 @@ class Neighbours:
         """List pairs again if a body may move farther than the skin; return whether that was so."""
         if self.skin >= 1e300:
             return False
-        body: Body
         for body in self.bodies:
             if body.moved + body.way > self.skin:
                 self.list_pairs()
@@ -88,13 +81,11 @@ class Neighbours:
 
     def measure(self) -> cython.void:
         """Measure how far apart the circles of all listed pairs are."""
-        pair: Pair
         for pair in self.pairs:
             pair.start_gap = pair.apart()
 
     def advance(self) -> cython.void:
         """Note that bodies may have moved by their ways."""
-        body: Body
         for body in self.bodies:
             body.moved += body.way
             body.wall_gap -= body.way
@@ -109,7 +100,6 @@ class Neighbours:
         if body.way > body.wall_skin:
             self.list_walls(body)
         least: cython.double = body.wall_skin
-        pair: Pair
         for pair in body.wall_pairs:
             least = min(least, pair.apart())
         body.wall_gap = least
@@ -117,10 +107,6 @@ class Neighbours:
 
     def list_walls(self, body: Body) -> cython.void:
         """List the walls near a body, with a skin that lasts for many control steps."""
-        wall: Wall
-        piece: Piece
-        x: cython.double
-        y: cython.double
         body.wall_pairs = []
         body.wall_skin = 1e300
         if len(self.walls) > FEW_WALLS:
@@ -140,7 +126,6 @@ class Neighbours:
     def list_pairs(self) -> cython.void:
         """List the pairs again, with a skin that lasts for several control steps."""
         furthest: cython.double = 0.0
-        body: Body
         for body in self.bodies:
             furthest = max(furthest, body.way)
             body.moved = 0.0
@@ -161,7 +146,6 @@ class Neighbours:
         """Sort the bodies into cells of this size, so that each cell's list ascends."""
         self.size = size
         self.first = [-1] * (self.wide * self.wide)
-        body: Body
         for body in self.bodies[::-1]:
             body.cell = self.column(body.start_y) * self.wide + self.column(body.start_x)
             body.next = self.first[body.cell]
@@ -172,14 +156,10 @@ class Neighbours:
         wide: cython.int = self.wide
         row: cython.int = a.cell // wide
         column: cython.int = a.cell - row * wide
-        u: cython.int
-        v: cython.int
-        j: cython.int
-        b: Body
         for v in range(-1, 2):
             for u in range(-1, 2):
                 cell: cython.int = ((row + v + wide) % wide) * wide + (column + u + wide) % wide
-                j = self.first[cell]
+                j: cython.int = self.first[cell]
                 while j >= 0:
                     b = self.bodies[j]
                     if j > a.number and length(a.start_x - b.start_x, a.start_y - b.start_y) <= (

@@ -13,7 +13,7 @@ from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.flush import PARALLEL, join, lay
-from mars2d.physics.islands.piece import Corner, Edge, Piece
+from mars2d.physics.islands.piece import Corner, Piece
 from mars2d.physics.islands.seams import Seams
 
 
@@ -114,7 +114,7 @@ class Pair:
     normal_y: cython.double
     walled_in: object  # the walls of the solver in which the wall is
     start_gap: cython.double  # between the circles at the beginning of the control step
-    next_touch: object  # the next pair that touches now with the same first body
+    next_touch: Pair | None  # the next pair that touches now with the same first body
     # where bodies that no forces act on touch
     point_x: cython.double
     point_y: cython.double
@@ -155,8 +155,6 @@ class Pair:
 
     def measure(self) -> cython.bint:
         """Measure the gap and the normal; return whether they touch."""
-        x: cython.double
-        y: cython.double
         if self.is_wall:
             x, y = self.wall.way(self.a.x, self.a.y)
         else:
@@ -274,8 +272,6 @@ class PiecePair(Pair):
         """
         x: cython.double = -self.between_x if second else self.between_x
         y: cython.double = -self.between_y if second else self.between_y
-        edge: Edge
-        corner: Corner
         for edge in p.edges:
             least: cython.double = 1e300
             for corner in q.corners:
@@ -298,8 +294,6 @@ class PiecePair(Pair):
         x: cython.double = sign * self.between_x
         y: cython.double = sign * self.between_y
         last: Corner = p.corners[len(p.corners) - 1]
-        corner: Corner
-        other: Corner
         for corner in p.corners:
             edge_x: cython.double = corner.x - last.x
             edge_y: cython.double = corner.y - last.y
@@ -357,7 +351,6 @@ class PiecePair(Pair):
             bends = bends + other.acceleration
         nx: cython.double = self.edge_x
         ny: cython.double = self.edge_y
-        corner: Corner
         for corner in piece.corners:
             dx: cython.double = corner.x + x
             dy: cython.double = corner.y + y
@@ -389,8 +382,6 @@ class PiecePair(Pair):
             return h
         a: Body = self.a
         b: Body = self.b
-        corner: Corner
-        other: Corner
         for corner in self.p.corners:
             place: cython.double = nx * corner.x + ny * corner.y
             speed: cython.double = nx * a.vx + ny * a.vy + a.spin * (ny * corner.x - nx * corner.y)
@@ -418,7 +409,6 @@ class PiecePair(Pair):
         half: cython.double = 0.5 * h * h
         front: cython.double = -1e300
         back: cython.double = 1e300
-        corner: Corner
         for corner in self.p.corners:
             speed: cython.double = nx * a.vx + ny * a.vy + a.spin * (ny * corner.x - nx * corner.y)
             turn: cython.double = a.acceleration + a.spin * a.spin * corner.lever
@@ -447,9 +437,6 @@ class PiecePair(Pair):
 
     def meet_at_corners(self, room: cython.double) -> cython.bint:
         """Return whether edges lie against each other, and corners by corners."""
-        edge: Edge
-        corner: Corner
-        other: Corner
         opposed: cython.bint = False
         for edge in self.p.edges if self.of_second else self.q.edges:
             opposed = opposed or edge.x * self.edge_x + edge.y * self.edge_y < -PARALLEL
@@ -472,11 +459,8 @@ class PiecePair(Pair):
         ny: cython.double = self.normal_y
         front: cython.double = self.p.front(nx, ny)
         back: cython.double = -self.q.front(-nx, -ny)
-        corner: Corner
         low: cython.double = 1e300
         high: cython.double = -1e300
-        along: cython.double
-        speed: cython.double
         self.into_b = self.into_a = -1e300
         for corner in self.p.corners:
             if nx * corner.x + ny * corner.y < front - 1e-3:

@@ -68,15 +68,12 @@ class Piece:
     def front(self, x: cython.double, y: cython.double) -> cython.double:
         """Return how far its corners reach from the body's pose in a direction, metres."""
         front: cython.double = -1e300
-        corner: Corner
         for corner in self.corners:
             front = max(front, x * corner.x + y * corner.y)
         return front
 
     def turn(self, c: cython.double, s: cython.double) -> cython.void:
         """Turn it by an angle of this cosine and sine from its body's frame."""
-        corner: Corner
-        edge: Edge
         for corner in self.corners:
             corner.x = c * corner.local_x - s * corner.local_y
             corner.y = s * corner.local_x + c * corner.local_y

@@ -63,7 +63,6 @@ class Things:
 
     def place(self, states: cython.Doubles) -> None:
         """Move all to where their bodies are: six numbers each, first x, y [m], theta [rad]."""
-        k: cython.int
         at: cython.int = 0
         c, s = cosine_sine(states[2])
         for k in range(len(self.bodies)):
@@ -82,11 +81,9 @@ class Things:
         """Return how many of the things in order have a smaller x."""
         low: cython.int = 0
         high: cython.int = len(self.order)
-        middle: cython.int
-        thing: cython.int
         while low < high:
             middle = (low + high) // 2
-            thing = self.order[middle]
+            thing: cython.int = self.order[middle]
             if self.x[thing] < x:
                 low = middle + 1
             else:
@@ -144,8 +141,6 @@ class Caster:
         self.lengths, self.owners = found
         self.count, self.reach = len(cosines), reach
         m: cython.int = len(ignore)
-        i: cython.int
-        k: cython.int
         for i in range(m):
             self.x, self.y, self.at = poses[i], poses[m + i], i * self.count
             self.c, self.s = cosine_sine(poses[2 * m + i])
@@ -171,7 +166,6 @@ class Caster:
         self.angle, self.way_x, self.way_y = memory
         self.lengths, self.owners = found
         self.x, self.y, self.ignore, self.count = x, y, ignore, 1
-        k: cython.int
         many: cython.int = len(points) // 2
         for k in range(many):
             dx: cython.double = points[k] - self.x
@@ -195,15 +189,12 @@ class Caster:
 
     def look(self) -> cython.void:
         """Cast the fan, or find the nearest points."""
-        things: Things
-        thing: cython.int
-        k: cython.int
         for things in self.groups:
             for k in range(things.wide):
                 self.meet(things, k)
             far: cython.double = (1.0 + 1e-9) * (self.reach + things.largest)
             for k in range(things.from_x(self.x - far), len(things.order)):
-                thing = things.order[k]
+                thing: cython.int = things.order[k]
                 if things.x[thing] > self.x + far:
                     break
                 self.meet(things, thing)
@@ -236,7 +227,6 @@ class Caster:
         """
         x: cython.double = things.x[thing] - self.x
         y: cython.double = things.y[thing] - self.y
-        far: cython.double
         if things.edges[thing] == 0.0:
             far = length(x, y)
             share: cython.double = things.radius[thing] / far if far > 0.0 else 0.0
@@ -286,7 +276,6 @@ class Caster:
         if low < 2e-9:
             low, high = low + 4.0, high + 4.0
         first: cython.int = self.below(low - 2e-9)
-        k: cython.int
         for k in range(first, self.end_of(first, high + 2e-9)):
             ray: cython.int = k % self.count
             c: cython.double = self.way_x[ray]
@@ -303,7 +292,6 @@ class Caster:
 
         From outside, some edges show their outer sides and hide the others; from inside, none does.
         """
-        edge: cython.int
         inside: cython.bint = True
         for edge in range(first, first + edges):
             if self.area(things, edge) < 0.0:
@@ -352,7 +340,6 @@ class Caster:
         if low < 2e-9:
             low, high = low + 4.0, high + 4.0
         first: cython.int = self.below(low - 2e-9)
-        k: cython.int
         for k in range(first, self.end_of(first, high + 2e-9)):
             ray: cython.int = k % self.count
             c: cython.double = self.way_x[ray]
@@ -392,7 +379,6 @@ class Caster:
         at_a: cython.bint = abs(beside_a) <= aimed(length(ax, ay))
         at_b: cython.bint = abs(beside_b) <= aimed(length(bx, by))
         between: cython.bint = min(beside_a, beside_b) <= 0.0 <= max(beside_a, beside_b)
-        distance: cython.double
         if not (at_a or at_b or between):
             return
         if not grazing:
@@ -429,7 +415,6 @@ class Caster:
             angle, turns = angle - 4.0, turns + self.count
         low: cython.int = 0
         high: cython.int = self.count
-        middle: cython.int
         while low < high:
             middle = (low + high) // 2
             if self.angle[middle] < angle:
@@ -450,7 +435,6 @@ class Caster:
 
     def end_all(self, owner: cython.int) -> cython.void:
         """Let all rays of the fan end where they start."""
-        k: cython.int
         for k in range(self.count):
             self.end(k, 0.0, owner)
 

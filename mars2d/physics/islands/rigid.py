@@ -6,7 +6,7 @@ from typing import Any
 
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import cosine_sine, length
-from mars2d.physics.islands.piece import Corner, Piece
+from mars2d.physics.islands.piece import Piece
 from mars2d.physics.islands.state import Progress
 
 
@@ -63,14 +63,11 @@ class RigidBody(Progress):
         c, s = cosine_sine(self.angle)
         self.center_x = self.x + (c * self.offset_x - s * self.offset_y)
         self.center_y = self.y + (s * self.offset_x + c * self.offset_y)
-        piece: Piece
         for piece in self.pieces:
             piece.turn(c, s)
 
     def lift(self) -> cython.void:
         """Forget that its faces go on in other bodies."""
-        piece: Piece
-        corner: Corner
         self.laid = False
         for piece in self.pieces:
             for corner in piece.corners:

@@ -106,7 +106,6 @@ class Seams:
         corner: Vector = chipmunk.corner_of(shape, self.corners - 1)
         above: cython.double = (corner.y - self.y) * self.ux - (corner.x - self.x) * self.uy
         at: cython.double = (corner.x - self.x) * self.ux + (corner.y - self.y) * self.uy
-        k: cython.int
         self.dx = self.dy = 0.0
         for k in range(self.corners):
             before: cython.double = above
@@ -152,7 +151,6 @@ class Seams:
         deepest: cython.double = -1.0
         px: cython.double = 0.0
         py: cython.double = 0.0
-        k: cython.int
         for k in range(self.corners):
             corner: Vector = chipmunk.corner_of(shape, k)
             at: cython.double = (corner.x - self.x) * self.ux + (corner.y - self.y) * self.uy

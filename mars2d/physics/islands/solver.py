@@ -8,11 +8,11 @@ from mars2d.physics.islands import chipmunk, library, settings
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import cosine_sine, decay_base, exponential, length
 from mars2d.physics.islands.body import Body
+from mars2d.physics.islands.chipmunk import Held
 from mars2d.physics.islands.floor import hold
 from mars2d.physics.islands.flush import Flush, join, lay, show, straighten_contact
 from mars2d.physics.islands.library import Arbiters, Handle, Vector
 from mars2d.physics.islands.pair import Wall
-from mars2d.physics.islands.piece import Piece
 from mars2d.physics.islands.seams import correct_contact, sew
 from mars2d.physics.islands.surfaces import settle_contact
 from mars2d.physics.islands.tie import Tie
@@ -21,14 +21,6 @@ ENDS = ((0.0, 0.0), (0.0, 0.0))
 
 STILL = 1e-6
 """The speed up to which a body is at rest, m/s."""
-
-
-@cython.cclass
-class Held:
-    """A thing of the engine that Python keeps: a shape, or a joint."""
-
-    handle: Handle
-    ground: Handle
 
 
 @cython.cclass
@@ -78,7 +70,6 @@ class Solver:
         """Put a body in."""
         if not body.made:
             self.make(body)
-        shape: Held
         chipmunk.add_body(self.space, body.handle)
         for shape in body.shapes:
             chipmunk.add_shape(self.space, shape.handle)
@@ -95,8 +86,6 @@ class Solver:
         body.handle = chipmunk.new_body(body.mass, body.moment, body.number)
         if body.com != 0.0:
             chipmunk.weight_at(body.handle, body.com)
-        piece: Piece
-        other: Piece
         for piece in body.pieces:
             points = [(corner.local_x, corner.local_y) for corner in piece.corners]
             shape = Held()
@@ -159,14 +148,12 @@ class Solver:
 
     def leave(self, body: Body) -> cython.void:
         """Remove a body with its ties."""
-        tie: Tie
         for tie in self.ties[:]:
             if tie.a is body or tie.b is body:
                 self.remove_parts(tie)
                 self.ties.remove(tie)
         if body.engaged:
             self.disengage(body)
-        shape: Held
         for shape in body.shapes:
             chipmunk.remove_shape(self.space, shape.handle)
         chipmunk.remove_body(self.space, body.handle)
@@ -175,7 +162,6 @@ class Solver:
 
     def empty(self) -> cython.void:
         """Take all bodies out."""
-        body: Body
         for body in self.bodies[::-1]:
             self.leave(body)
         if len(self.walls) > 8:
@@ -184,7 +170,6 @@ class Solver:
 
     def take_walls_down(self) -> cython.void:
         """Take all walls out."""
-        held: Held
         for held in self.walls.values():
             chipmunk.remove_shape(self.space, held.handle)
             chipmunk.remove_body(self.space, held.ground)
@@ -222,11 +207,9 @@ class Solver:
             self.joint_bias = decay_base(
                 settings.JOINT_BIAS_RATE, self.joint_bias_base, self.last_step
             )
-        k: cython.int
         a: Handle = tie.a.handle
         b: Handle = chipmunk.ground_of(self.space) if tie.to_world else tie.b.handle
         ends = ((tie.anchor_ax, tie.anchor_ay), (tie.anchor_bx, tie.anchor_by))
-        part: Held
         for k in range(len(tie.parts)):
             kind, turned, numbers = tie.parts[k]
             if len(tie.joints) <= k:
@@ -246,20 +229,16 @@ class Solver:
 
     def add_parts(self, tie: Tie) -> cython.void:
         """Put the parts of a joint in."""
-        part: Held
         for part in tie.joints:
             chipmunk.add_joint(self.space, part.handle)
 
     def remove_parts(self, tie: Tie) -> cython.void:
         """Take the parts of a joint out."""
-        part: Held
         for part in tie.joints:
             chipmunk.remove_joint(self.space, part.handle)
 
     def pull_of(self, tie: Tie) -> cython.double:
         """Return the impulse of a joint along its line in the last step, N s."""
-        k: cython.int
-        part: Held
         most: cython.double = 0.0
         for k in range(len(tie.parts)):
             if tie.parts[k][0] != library.ROTARY_LIMIT and tie.parts[k][0] != library.ROTARY_SPRING:
@@ -283,8 +262,6 @@ class Solver:
             least += beyond
         else:
             tie.hits = False
-        k: cython.int
-        part: Held
         for k in range(len(tie.parts)):
             if tie.parts[k][0] == library.ROTARY_LIMIT:
                 part = tie.joints[k]
@@ -304,7 +281,6 @@ class Solver:
         """
         ratio: cython.double = 0.0 if self.stale else h / self.last_step
         self.stale = False
-        k: cython.int
         if h != self.last_step or self.hurries != self.hurried:
             self.last_step, self.hurried, self.joint_bias = h, self.hurries, 0.0
             if self.hurries:
@@ -314,7 +290,6 @@ class Solver:
         if ratio != 1.0:
             for k in range(self.find_contacts()):
                 chipmunk.scale(self.arbiters.at(k), ratio)
-            tie: Tie
             for tie in self.ties:
                 self.remove_parts(tie)
                 self.make_parts(tie)
@@ -322,7 +297,6 @@ class Solver:
 
     def find_contacts(self) -> cython.int:
         """Find all contacts that the engine knows, and return how many there are."""
-        body: Body
         self.arbiters.clear()
         for body in self.bodies:
             self.arbiters.add_those_of(body.handle)
@@ -342,7 +316,6 @@ class Solver:
 
         They do not if any moves, or is told or pulled or tied to.
         """
-        body: Body
         for body in self.bodies:
             if self.ties or body.pulled or body.is_told() or body.top_speed() > STILL:
                 return
@@ -356,7 +329,6 @@ class Solver:
 
         `settle` and `share_out` do the rest.
         """
-        body: Body
         solved: cython.bint = False
         for body in self.bodies:
             solved = solved or body.solved
@@ -372,7 +344,6 @@ class Solver:
                     self.renew(body)
         self.relax()
         self.forget(h)
-        tie: Tie
         for tie in self.ties:
             if tie.is_rope:  # what one that is too long draws in fast would go on, and slacken it
                 rope: Held = tie.joints[0]
@@ -624,7 +595,6 @@ class Solver:
 
 def free_tie(tie: Tie) -> cython.void:
     """Free the joints of a tie that is in no space."""
-    part: Held
     for part in tie.joints:
         chipmunk.free_joint(part.handle)
     tie.joints = []
@@ -635,7 +605,6 @@ def free_things_of(body: Body) -> cython.void:
     if not body.made:
         return
     body.made = False
-    shape: Held
     for shape in body.shapes:
         chipmunk.free_shape(shape.handle)
     body.shapes = []

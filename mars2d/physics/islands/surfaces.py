@@ -101,9 +101,6 @@ class Surfaces:
         """Return how fast two bodies slide along each other, before the substep, m/s."""
         vx: cython.double = 0.0
         vy: cython.double = 0.0
-        body: Body
-        arm: Vector
-        fast: Vector
         if second >= 0:
             body = self.bodies[second]
             arm, fast = arbiter.contacts[0].r2, chipmunk.velocity_of(body.handle)

@@ -38,7 +38,6 @@ class Thrust:
         """Aim a robot at where it will be after h seconds, and work out its velocity then."""
         self.begin(body)
         gone: cython.double = 0.0
-        part: cython.double
         fine: cython.double = h
         if self.bent:
             fine = max(0.01 / max(abs(body.spin), abs(body.turning)), h / 4096)

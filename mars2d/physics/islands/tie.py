@@ -9,6 +9,7 @@ from mars2d.physics.islands import settings
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import cosine_sine, length
 from mars2d.physics.islands.body import Body
+from mars2d.physics.islands.chipmunk import Held
 
 
 @cython.cclass
@@ -35,7 +36,7 @@ class Tie:
     largest: cython.double
     rebound: cython.double  # at these limits, the restitution
     parts: list[Any]  # how it is made in the solver: kind, whether turned round, three numbers
-    joints: list[Any]  # there
+    joints: list[Held]  # there
     # as measured now
     arm_ax: cython.double
     arm_ay: cython.double
