@@ -377,9 +377,6 @@ class PiecePair(Pair):
         )
         nx: cython.double = self.normal_x
         ny: cython.double = self.normal_y
-        nearest: cython.double = -self.q.front(-nx, -ny) - self.p.front(nx, ny)
-        if self.clear(h, base + depth) and base + nearest + depth >= floor:
-            return h
         a: Body = self.a
         b: Body = self.b
         for corner in self.p.corners:
@@ -399,28 +396,6 @@ class PiecePair(Pair):
                 if closing * h + 0.5 * turns * h * h > room:
                     h = min(h, time_to_close(room, closing, turns))
         return h
-
-    def clear(self, h: cython.double, room: cython.double) -> cython.bint:
-        """Return whether no corner of one comes nearer than that to one of the other within h s."""
-        a: Body = self.a
-        b: Body = self.b
-        nx: cython.double = self.normal_x
-        ny: cython.double = self.normal_y
-        half: cython.double = 0.5 * h * h
-        front: cython.double = -1e300
-        back: cython.double = 1e300
-        for corner in self.p.corners:
-            speed: cython.double = nx * a.vx + ny * a.vy + a.spin * (ny * corner.x - nx * corner.y)
-            turn: cython.double = a.acceleration + a.spin * a.spin * corner.lever
-            front = max(front, nx * corner.x + ny * corner.y + speed * h + turn * half)
-        for corner in self.q.corners:
-            place: cython.double = nx * corner.x + ny * corner.y
-            if not self.is_wall:
-                speed = nx * b.vx + ny * b.vy + b.spin * (ny * corner.x - nx * corner.y)
-                turn = b.acceleration + b.spin * b.spin * corner.lever
-                place = place + speed * h - turn * half
-            back = min(back, place)
-        return back - front + room >= 0.0
 
     def lay(self, room: cython.double) -> cython.void:
         """Note at corners which faces of two pieces go on in each other, but for this room."""
