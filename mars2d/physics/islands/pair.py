@@ -12,7 +12,7 @@ from typing import Any
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
-from mars2d.physics.islands.flush import PARALLEL, join, lay
+from mars2d.physics.islands.flush import join, lay
 from mars2d.physics.islands.piece import Corner, Piece
 from mars2d.physics.islands.seams import Seams
 
@@ -401,29 +401,12 @@ class PiecePair(Pair):
         """Note at corners which faces of two pieces go on in each other, but for this room."""
         x: cython.double = self.between_x
         y: cython.double = self.between_y
-        if not self.meet_at_corners(2 * room):
-            return
         if lay(self.p, self.q, x, y, self.b.number, room):
             join(self.p.shape)
             self.a.laid = True
         if lay(self.q, self.p, -x, -y, self.a.number, room):
             join(self.q.shape)
             self.b.laid = True
-
-    def meet_at_corners(self, room: cython.double) -> cython.bint:
-        """Return whether edges lie against each other, and corners by corners."""
-        opposed: cython.bint = False
-        for edge in self.p.edges if self.of_second else self.q.edges:
-            opposed = opposed or edge.x * self.edge_x + edge.y * self.edge_y < -PARALLEL
-        if not opposed:
-            return False
-        for corner in self.p.corners:
-            x: cython.double = corner.x - self.between_x
-            y: cython.double = corner.y - self.between_y
-            for other in self.q.corners:
-                if abs(other.x - x) < room and abs(other.y - y) < room:
-                    return True
-        return False
 
     def meet(self) -> cython.void:
         """Find the middle of their common face, and how fast each moves into the other there.
