@@ -10,7 +10,7 @@ from mars2d.physics.islands.chipmunk import Held
 from mars2d.physics.islands.drive import DrivenBody
 from mars2d.physics.islands.library import Handle
 from mars2d.physics.islands.piece import Piece
-from mars2d.physics.islands.state import Progress, State
+from mars2d.physics.islands.rigid import Progress, State
 
 if TYPE_CHECKING:
     from mars2d.physics.islands.contacts import Touch

@@ -17,7 +17,7 @@ from pathlib import Path
 HERE = Path(__file__).parent
 
 MODULES = (
-    "arithmetic", "settings", "chipmunk", "piece", "state", "rigid", "drive", "body", "floor",
+    "arithmetic", "settings", "chipmunk", "piece", "rigid", "drive", "body", "floor",
     "flush", "seams", "surfaces", "thrust", "pair", "tie", "solver", "contacts", "impact", "island",
     "neighbours", "mover", "rays",
 )  # fmt: skip

@@ -19,7 +19,7 @@ class Surfaces:
     """The coefficients of contacts by the numbers of what touches, as they are asked for."""
 
     bodies: list[Body]
-    of: object
+    of: Any
     sticks: cython.double  # m/s, slower is not slipping
     known: dict[Any, Any]
     handle: object  # by which the engine finds it, in Python
