@@ -23,7 +23,7 @@ TRAIL_WIDTH, PROP_TRAIL_WIDTH = 1.6, 1.0
 def trails(frame: Frame) -> Scene:
     """Return the paths so far: the robots' in the animation's wake style, the props' thin.
 
-    Props that have never moved have none. A path is broken where its body was put elsewhere by hand.
+    Props that never moved have none. A path is broken where its body was put elsewhere by hand.
     """
     scene, n = Scene(), len(frame.scenario.robots)
     if len(frame.prop_path):
