@@ -185,7 +185,8 @@ class Watched:
     ) -> None:
         """Prepare the window."""
         look = Preferences(dark=dark)
-        window = self._window = Window(Reel(scene), 0 if each_step else 1.0, SIZE, look)
+        reel: Any = Reel(scene)  # as a record that is played
+        window = self._window = Window(reel, 0 if each_step else 1.0, SIZE, look)
         window.layers = window.layers.switched(names=overlays, velocities=overlays, forces=overlays)
         if inspector:
             window.select(3)

@@ -1,4 +1,4 @@
-"""Many small robots are seen, coloured by group, and what is drawn of them has legends."""
+"""Many small robots are seen, and what is drawn of them has legends."""
 
 from __future__ import annotations
 
@@ -8,15 +8,13 @@ import pytest
 import mars2d
 from mars2d import Holonomic, Robot, Scenario
 from mars2d.addons import Communication, Theory
-from mars2d.core.scene import PALETTE, Circle, rgb
+from mars2d.core.scene import Circle
 from mars2d.output.figures.contacts import plot_contacts
 from mars2d.output.figures.figure import plot_paths, save_drawing
 from mars2d.output.figures.signals import plot_signals
 from mars2d.output.layers.bodies import RING, place_ring
 from mars2d.output.layers.legend import legends
 from mars2d.output.layers.table import of_bodies
-from mars2d.scenario.controllers import ByHand
-from mars2d.sensors import Beacon, Imu, Proximity, RangeBearing, RangeFinder, SonarRing
 from tests.cases import each_case
 
 
@@ -41,26 +39,6 @@ def test_robots_of_less_than_a_hundredth_of_the_arena_have_rings(side, count):
         assert (ring.radius, ring.pixels) == (0.0, RING)  # under a robot that is seen large
 
 
-# -- colours ---------------------------------------------------------------------------------------
-
-
-def test_a_crowd_is_coloured_by_name_law_drive_and_size():
-    red, drone = Robot(name="red0"), Robot(drive=Holonomic())
-    groups = [
-        [red.replace(name=f"red{k}") for k in range(9)],
-        [drone] * 9,
-        [Robot(controller=ByHand())] * 9,
-        [Robot(diameter=0.2)] * 9,
-    ]
-    robots = [r.at(k % 9, k // 9) for k, r in enumerate(r for group in groups for r in group)]
-    colors = Scenario(robots=robots, workspace=None).colors
-    for g in range(4):
-        own = set(colors[9 * g : 9 * g + 9])
-        assert len(own) == 3  # in three shades
-        assert PALETTE[g] in own
-        hue = np.argmax(rgb(PALETTE[g]))
-        assert all(np.argmax(rgb(color)) == hue for color in own)
-    assert len(set(colors)) == 12
 
 
 # -- legends ---------------------------------------------------------------------------------------
@@ -70,16 +48,12 @@ def meanings(scenario):
     return {each.layer: [sign.name for sign in each.signs] for each in legends(scenario)}
 
 
-def test_messages_theory_and_sensors_have_legends_where_they_are_drawn():
+def test_messages_and_theory_have_legends_where_they_are_drawn():
     assert meanings(Scenario(robots=2)).keys() == {"forces", "impulses", "velocities"}
-    sensors = [SonarRing(), RangeFinder(), Proximity(range=1), RangeBearing(), Beacon(), Imu()]
     addons = [Communication(), Theory(lambda scene, frame: None)]
-    found = meanings(Scenario(robots=[Robot(sensors=sensors)], addons=addons))
+    found = meanings(Scenario(robots=1, addons=addons))
     assert found["messages"] == ["message", "message lost"]
     assert found["theory"] == ["theory"]
-    assert found["sensors"] == [
-        "a sonar's echo", "a laser's hit", "something is near", "range and bearing",
-    ]  # fmt: skip
 
 
 # -- figures ---------------------------------------------------------------------------------------

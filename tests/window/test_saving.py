@@ -1,21 +1,16 @@
 """What is kept of a window: never over another file, and films that show what was shown."""
 
 import sys
-from math import pi
 
 import numpy as np
 import pygame
 import pytest
 from PIL import Image
 
-from mars2d import InputError, Robot, Scenario
+from mars2d import InputError
 from mars2d.output.films.filming import FPS, Filming, film_suffix
-from mars2d.scenario.experiment import Experiment, open_experiment
-from mars2d.window.run.director import Director
-from mars2d.window.screen.player import Player
 from mars2d.window.screen.saving import Saver, free_name, saved
 from mars2d.window.widgets.notes import Notes
-from mars2d.world.timeline import Timeline
 from tests.cases import each_case
 
 SIZE = (160, 120)
@@ -75,7 +70,7 @@ def test_a_file_that_cannot_be_written_leaves_nothing_behind(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-def test_pictures_and_scenarios_are_kept_beside_others(tmp_path, monkeypatch):
+def test_pictures_are_kept_beside_others(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "walk_1.png").write_text("mine")
     notes = Notes()
@@ -85,13 +80,7 @@ def test_pictures_and_scenarios_are_kept_beside_others(tmp_path, monkeypatch):
     with Image.open(tmp_path / "walk_2.png") as picture:
         assert picture.size == SIZE
         assert picture.getpixel((5, 5)) == (255, 0, 0)
-    scenario = Scenario(title="Kept", robots=[Robot(pose=(1, 2, 3))])
-    saver.scenario(scenario, None)
-    assert open_experiment(tmp_path / "walk_1.toml").scenario == scenario
-    paths = tmp_path / "walk_2.png", tmp_path / "walk_1.toml"
-    assert [note.text for note in notes._notes] == [
-        f"picture: {paths[0]}", f"scenario: {paths[1]}"
-    ], "there is no window, and no clipboard"  # fmt: skip
+    assert [note.text for note in notes._notes] == [f"picture: {tmp_path / 'walk_2.png'}"]
 
 
 # -- films ----------------------------------------------------------------------------------------
@@ -131,24 +120,3 @@ def test_films_are_mp4_where_that_is_installed_and_gif_elsewhere(tmp_path, monke
         film.take(painted("red"))
         assert frames_of(film.stop())
         monkeypatch.setitem(sys.modules, "av", None)
-
-
-def test_a_scenario_is_kept_with_short_numbers_which_are_those_of_the_file_for_what_stands():
-    third = 1 / 3
-
-    def turning(_robot):
-        return 0.3, 0.7
-
-    robots = [Robot(pose=(0, 0, 0), controller=turning), Robot(pose=(third, 3, pi))]
-    timeline = Timeline(Experiment(Scenario(robots=robots)))
-    for _ in range(17):
-        timeline.advance()
-    director = Director(Player(timeline, 1.0), Notes(), lambda *_: True)
-    kept = director.scenario_to_save()
-    assert kept.robots[1].pose == (third, 3, pi)
-    (x, y, theta), exact = kept.robots[0].pose, timeline.frame.pose[:, 0]
-    assert np.abs(np.array([x, y, theta]) - exact).max() <= 5e-7
-    assert all(len(repr(value)) <= 9 for value in (x, y, theta))
-    timeline.world.operator.place(0, (1e-9, -1e-9, 1.0))
-    director._player.settle()
-    assert str(director.scenario_to_save().robots[0].pose) == "(0.0, 0.0, 1.0)"

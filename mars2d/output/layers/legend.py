@@ -17,7 +17,6 @@ from mars2d.core.scene import (
     Shape,
     faded,
 )
-from mars2d.core.usercode import called
 from mars2d.output.layers.arrows import Ruler, Sign, arrow
 from mars2d.output.layers.forces import SLIP, SLIP_EDGE, force_scale
 from mars2d.output.layers.impulses import FRICTION, impulse_scale
@@ -44,26 +43,11 @@ def legends(scenario: Scenario) -> list[Legend]:
         Legend("impulses", (blow.limit, _friction()), blow),
         Legend("velocities", (paces.limit,), paces),
     ]
-    if signs := _of_sensors(scenario):
-        found.append(Legend("sensors", signs))
     if any(addon.carries_messages for addon in scenario.addons):
         found.append(Legend("messages", (MESSAGE, LOST)))
     if any(type(addon).theory is not Addon.theory for addon in scenario.addons):
         found.append(Legend("theory", (PREDICTED,)))
     return found
-
-
-def _of_sensors(scenario: Scenario) -> tuple[Sign, ...]:
-    """Return a sign for each kind of sensors that has one."""
-    found: dict[str, Sign] = {}
-    for robot, color in zip(scenario.robots, scenario.colors, strict=True):
-        for sensor in robot.sensors:
-            scene = Scene()
-            with called(f"sensor {sensor.key!r}", sensor.sign):
-                meaning = sensor.sign(scene, color)
-            if meaning:
-                found.setdefault(meaning, Sign(scene, 28.0, meaning))
-    return tuple(found.values())
 
 
 def _friction() -> Sign:

@@ -219,7 +219,7 @@ from mars2d.output.formats.mcap import Log
 from mars2d.world.loop import open_world
 experiment = open_experiment("token_ring", {"stop_time": float(sys.argv[2])}, seed=1)
 with Log(sys.argv[1]) as log:
-    world = open_world(experiment, (), log.storage)
+    world = open_world(experiment)
     while not world.over:
         world.step()
         log.follow(world)

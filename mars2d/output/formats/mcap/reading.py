@@ -15,9 +15,8 @@ from mars2d.output.formats.columns import shapes_of
 from mars2d.output.formats.guard import check_size, reading
 from mars2d.output.formats.mcap.row import decoded
 from mars2d.output.formats.mcap.writing import BEGIN, END, TOPIC, require
-from mars2d.record.columns import Texts
 from mars2d.record.contact import CONTACT
-from mars2d.record.message import MESSAGE, as_of
+from mars2d.record.message import MESSAGE, as_of, packed
 from mars2d.record.rows import Rows
 
 MAGIC = b"\x89MCAP0\r\n"
@@ -126,9 +125,9 @@ def _record(rows: list[bytes], header: dict[str, Any], end: dict[str, Any] | Non
     touched = np.concatenate(contacts)
     columns |= {f"contact:{name}": touched[name] for name in CONTACT.names or ()}
     if contents:
-        sent, texts = as_of(np.concatenate(messages), columns["time"][-1]), Texts.of(contents)
+        sent = as_of(np.concatenate(messages), columns["time"][-1])
         columns |= {f"message:{name}": sent[name] for name in MESSAGE.names or ()}
-        columns |= {"contents": texts.data, "content_sizes": texts.sizes}
+        columns |= packed(contents)
     carried = header["sensor_robots"]
     whole = header | {
         "interventions": [*header["interventions"], *changes],
