@@ -89,10 +89,6 @@ class Beacon(Addon):
         """Return where it is now, by its name."""
         return {self.key: self.position}
 
-    def named_points(self, frame: FrameLike) -> list[tuple[str, Point]]:
-        """Return where it is at the frame's time, with its name."""
-        return [(f"beacon {self.key}", self.where(frame.time))]
-
     def on_start(self, world: WorldLike) -> None:
         """Take the world's clock."""
         self._world = world

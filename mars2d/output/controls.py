@@ -72,7 +72,6 @@ CONTROLS = {
         "M3 7.5h4l2-3h6l2 3h4V19H3ZM8.5 13a3.5 3.5 0 1 0 7 0a3.5 3.5 0 1 0-7 0",
     ),
     "film": Control("Film", "V", "M3 6h12v12H3ZM15 10.5l6-3.5v10l-6-3.5"),
-    "scenario": Control("Save scenario", "C", "M8 7l-5 5 5 5M16 7l5 5-5 5M14 5l-4 14"),
     "screen": Control("Full screen", "F11", "M14 4h6v6M20 4l-7 7M10 20H4v-6M4 20l7-7"),
     "dark": Control("Dark", "D", "M20 14.5A8.5 8.5 0 0 1 9.5 4 8.5 8.5 0 1 0 20 14.5Z"),
     "text": Control("Larger text", "Z", "M5 19 12 4l7 15M7.6 13.5h8.8"),

@@ -329,7 +329,7 @@ def test_without_a_display_the_error_says_what_to_do_instead(no_display):
 
 # -- all of them ----------------------------------------------------------------------------------
 
-ON_A_KEYBOARD = {
+ON_A_KEYBOARD = {",": "comma", ".": "period",
     "PgDn": "Next", "PgUp": "Prior", "→": "Right", "←": "Left", "+": "plus",
     "\N{MINUS SIGN}": "minus", "Esc": "Escape", "Space": "space",
 }  # fmt: skip

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from math import atan2, cos, hypot, pi, radians, sin
+from math import atan2, cos, hypot, pi, sin
 from typing import Literal
 
 import numpy as np
-import pygame
 
 from mars2d.bodies.rigid import Rigid, Triple
 from mars2d.core.plane import Point
@@ -26,8 +25,6 @@ from mars2d.world.world import World
 Act = Callable[[World], None]
 """Something that is done to a world."""
 
-NOTCH = radians(15)
-"""With Ctrl, angles are multiples of this."""
 CHECK_INTERVAL = 0.05
 """How often a new place is checked for obstacles at most, seconds."""
 
@@ -73,7 +70,7 @@ class Pull:
         self.newtons = 0.0
         self._world: World | None = None  # in which the body is pulled
 
-    def move(self, frame: Frame, point: Point, mods: int) -> None:  # noqa: ARG002
+    def move(self, frame: Frame, point: Point) -> None:  # noqa: ARG002
         """Pull towards a point."""
         self.target = point
 
@@ -164,7 +161,7 @@ class Placement:
 class Move(Placement):
     """Moves a body."""
 
-    def move(self, frame: Frame, point: Point, mods: int) -> None:  # noqa: ARG002
+    def move(self, frame: Frame, point: Point) -> None:  # noqa: ARG002
         """Move the body by as much as the pointer."""
         dx, dy = point[0] - self.start[0], point[1] - self.start[1]
         self.now = self.before[0] + dx, self.before[1] + dy, self.before[2]
@@ -188,13 +185,11 @@ class Turn(Placement):
 
     pointer: Point | None = None
 
-    def move(self, frame: Frame, point: Point, mods: int) -> None:  # noqa: ARG002
+    def move(self, frame: Frame, point: Point) -> None:  # noqa: ARG002
         """Turn the body towards a point, the shorter way round."""
         x, y, theta = self.before
         self.pointer = point
         angle = atan2(point[1] - y, point[0] - x)
-        if mods & pygame.KMOD_CTRL:
-            angle = NOTCH * round(angle / NOTCH)
         self.now = x, y, theta + (angle - theta + pi) % (2 * pi) - pi
 
     def words(self) -> str:
@@ -250,13 +245,15 @@ def within(rigid: Rigid, point: Point) -> Point:
 # -- marks ------------------------------------------------------------------------------------
 
 
-def draw_ring(scene: Scene, frame: Frame, body: int, color: str, width: float) -> None:
-    """Draw a ring round a body; width: of its line, points."""
+def draw_ring(
+    scene: Scene, frame: Frame, body: int, color: str, width: float, far: float = 6.0
+) -> None:
+    """Draw a ring round a body; width: of its line, far: its least radius, points."""
     center, radius = bounding_circle(
         frame.scenario.bodies[body].shape, np.array(frame.body_pose(body))
     )
     for stroke, more in ((HALO, 2.0), (color, 0.0)):
-        scene.circle(center, radius, stroke=stroke, width=width + more, pixels=6.0)
+        scene.circle(center, radius, stroke=stroke, width=width + more, pixels=far)
 
 
 def draw_label(

@@ -49,10 +49,6 @@ class ScorePanel(RowsPanel):
         left = max(scenario.stop_time - frame.time, 0.0)
         at_end = Word(f"{left:.1f} s", theme.ink, 24, bold=True)
         yield self.line(TIME, [Word("time left", theme.muted, SMALL)], [at_end])
-        distance = play.distance(frame)
-        if distance is not None:
-            at_end = Word(f"{distance:.2f} m", theme.ink, SIZE, bold=True)
-            yield self.line(ROW, [Word("distance", theme.muted, SMALL)], [at_end])
         yield Row(GAP, self._rule)
         score = play.score()
         for role, team in roles_of(scenario).items():
@@ -63,10 +59,6 @@ class ScorePanel(RowsPanel):
             if not seat.role:
                 about = str(scenario.robots[seat.robot].name), "you", ""
                 yield from self._role(frame, seat.robot, about, [seat], width)
-        for role in dict.fromkeys(seat.role for seat in play.seats if seat.role):
-            if words := play.tally(role).in_words:
-                yield Row(GAP, self._rule)
-                yield from self._text(f"so far as {role}: {words}", width, 2)
 
     def _role(
         self,
@@ -97,7 +89,6 @@ class ScorePanel(RowsPanel):
             return
         yield self.line(WORDS, [Word(result.words, theme.running.ink, LARGE, bold=True)])
         yield from self._text(frame.over_message, width, MAX_LINES)
-        yield from self._text(result.news, width, 2)
         yield self._keys(("R",), "play again")
         yield self._keys((str(NEXT),), "next start")
         numbers = tuple(str(choice.number) for choice in self.play.choices)

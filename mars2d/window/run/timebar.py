@@ -109,7 +109,6 @@ class TimeBar(Slider):
         self._band(surface, painter, state)
         self._marks(surface, painter, state)
         self._handle(surface, painter, state, lifted=hovered)
-        self._label(surface, painter, state)
         if hovered and pointer is not None:
             row = self.row_at(pointer[0])
             place = round(self.x_of(row or 0)), rect.top - round(4 * ui)
@@ -197,22 +196,6 @@ class TimeBar(Slider):
         scene.circle(center, 0.0, fill=theme.bar, pixels=11.0 if lifted else 9.0)
         scene.circle(center, 0.0, fill=color, pixels=9.0 if lifted else 7.0)
         painter.paint(surface, scene.shapes, PIXELS, shaded=False)
-
-    def _label(self, surface: pygame.Surface, painter: Painter, state: TimeState) -> None:
-        """Write the time above the handle, while the past is shown."""
-        if not state.past:
-            return
-        ui, line = painter.ui, self._line
-        text = _time(state.row, state)
-        image = painter.fonts.render(text, 12 * ui, painter.theme.past.ink, bold=True)
-        place = image.get_rect(
-            midbottom=(round(self.x_of(state.row)), line.centery - round(9 * ui))
-        )
-        place.left = min(max(place.left, line.left), line.right - place.width)
-        place.top = max(place.top, self._area.top + 1)
-        ground = place.inflate(round(8 * ui), 0)
-        surface.fill(painter.theme.bar, ground)
-        surface.blit(image, place)
 
 
 def _time(row: float, state: TimeState, digits: int | None = None) -> str:

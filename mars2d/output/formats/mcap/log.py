@@ -64,7 +64,7 @@ class Log:
     """
 
     def __init__(self, path: str | Path) -> None:
-        """Open the file, and lock it. Raises InputError where it can't be written."""
+        """Open the file. Raises InputError where it can't be written."""
         self.path = Path(path)
         require(self.path)
         from mcap.writer import IndexType, Writer
