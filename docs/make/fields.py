@@ -63,41 +63,45 @@ BASES: tuple[type[Description], ...] = (Drive, Prop, Joint, Sensor, Controller, 
 HEAD = """\
 # Fields
 
-Every field that an experiment can set, with its unit, its default and what it accepts besides that.
-All values are checked when an object is made: anything else is an error that names the field.
-Numbers have an interval: (0, 10] is more than 0 and at most 10. Fields are given by name, as in
-`Robot(diameter=0.2)`; those marked with * may also be given without their name, in their order, as
-in `Disc(0.2)`. What must be given has no default.
+Every field that an experiment can set: its default and unit, what it accepts, what it means. All
+values are checked when an object is made: anything else is an error that names the field. (0, 10]
+is more than 0 and at most 10; bounds from 1000 on are left out. What has no default must be given.
+Fields are given by name, as in `Robot(diameter=0.2)`; those marked with * also without it, in their
+order, as in `Disc(0.2)`. Colours are `#rrggbb` or a name. `object.replace(field=value)`
+returns a copy with some fields changed.
 
 Each class has its own fields and those of its family: of [Drive](#drive), [Prop](#prop),
 [Joint](#joint), [Sensor](#sensor), [Controller](#controller) or [Addon](#addon).
-
-`object.replace(field=value)` returns a copy with some fields changed; the objects themselves never
-change.
-"""
-
-TABLE_HEAD = """\
-| field | default | accepts | meaning |
-|---|---|---|---|
 """
 
 MATERIALS_HEAD = """
 ## Materials
 
-What a surface of a material brings into a contact, which has the product of both by default. The
-last two columns are those products for two things of the same material.
+What a surface of a material brings into a contact, which has the product of both by default.
 
-| material | density | friction | restitution | friction of two | restitution of two |
-|---|---|---|---|---|---|
+| material | density [kg/m^3] | friction | restitution |
+|---|---|---|---|
 """
 
-MATERIALS_TAIL = """
-Densities are in kg/m^3. The figures are typical ones of clean, dry, solid things; real ones scatter
-by a third and more. `mars2d/core/materials.py` names the sources.
-"""
+SHORT = {
+    "True or False": "",
+    "text in quotes": "",
+    "a pose (x, y, theta) in metres and radians": "",
+    "a polygon's vertices, such as [(x, y), ...] in metres": "such as [(x, y), ...]",
+    "an Animation, such as Animation()": "",
+    "a colour, '#rrggbb' or a name": "",
+    "a function of one argument, the robot": "",
+    "a factor of real time (1 is real time), 0 for one step a key press, or 'max'": "",
+    "a point (x, y) in metres": "",
+    "a number": "",
+    "the name of a file that ends in .png": "",
+    "a Drive, such as Unicycle()": "",
+}
+"""What a field accepts, where its unit, its default and its meaning say most of it."""
 
 TAIL = """
-This page is written by `docs/make/fields.py`.
+The figures are typical ones of clean, dry, solid things; real ones scatter by a third and more.
+`mars2d/core/materials.py` names the sources. This page is written by `docs/make/fields.py`.
 """
 
 
@@ -136,31 +140,37 @@ def title(kind: type[Description]) -> str:
 
 def section(kind: type[Description]) -> str:
     """Return the part about one class."""
-    text = f"\n## {title(kind)}\n\n{summary(kind)}\n"
+    text = f"\n## {title(kind)}\n\n{summary(kind)}"
     if issubclass(kind, Sensor) and kind is not Sensor:
         page = f"sensors/{snake_case(kind.__name__)}.md#parameters"
-        return text + f"\nIts fields are on [its page]({page}).\n"
+        return f"{text} See [its page]({page}).\n"
     if fields := fields_of(kind):
-        text += "\n" + TABLE_HEAD + "".join(row(kind, field) for field in fields)
-    return text
+        text += "\n\n" + "\n".join(line(kind, field) for field in fields)
+    return text + "\n"
 
 
-def row(kind: type[Description], field: dataclasses.Field[Any]) -> str:
-    """Return the row of one field."""
+def line(kind: type[Description], field: dataclasses.Field[Any]) -> str:
+    """Return the line of one field."""
     unit, doc = field.metadata.get("unit", ""), field.metadata.get("doc", "")
-    name = f"`{field.name}`{'' if field.kw_only else '*'}{f' [{unit}]' if unit else ''}"
-    cells = [name, default(field), accepts(kind, field), doc]
-    return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |\n"
+    given = default(field)
+    value = f"`{field.name} = {given}`" if given else f"`{field.name}`"
+    star = "" if field.kw_only else "\\*"
+    rules = accepts(kind, field)
+    if rules.startswith("such as"):
+        doc = f"{doc}, {rules}"
+    elif rules:
+        doc = f"{doc}. {rules[0].upper()}{rules[1:]}"
+    return f"- {value}{star}{f' {unit}' if unit else ''}: {doc}"
 
 
 def default(field: dataclasses.Field[Any]) -> str:
-    """Return a field's default as it is written in Python."""
+    """Return a field's default as it is written in Python, or nothing where it must be given."""
     if field.default is not dataclasses.MISSING:
         known = {2 * pi: "2 * pi", pi / 2: "pi / 2", (-pi / 2, pi / 2): "(-pi / 2, pi / 2)"}
-        return f"`{known.get(field.default, repr(field.default))}`"
+        return known.get(field.default, repr(field.default))
     if field.default_factory is not dataclasses.MISSING:
-        return f"`{field.default_factory()!r}`"
-    return "none: must be given"
+        return repr(field.default_factory())
+    return ""
 
 
 def accepts(kind: type[Description], field: dataclasses.Field[Any]) -> str:
@@ -178,11 +188,12 @@ def accepts(kind: type[Description], field: dataclasses.Field[Any]) -> str:
         with contextlib.suppress(InputError):
             if check(name, None) is None and "None" not in expected:
                 expected += ", or None"
-    expected = {"True or False": "", "text in quotes": "text"}.get(expected, expected)
-    expected = expected.replace(f" [{field.metadata['unit']}]", "")
+    expected = SHORT.get(expected, expected).replace(f" [{field.metadata['unit']}]", "")
+    expected = expected.replace("a list, ", "").replace(" in metres", "")
+    expected = re.sub(r"^a number >=? \S+ and <= [^\s,]*(e\+|000)\d*(, )?", "", expected)
     expected = re.sub(
         r"a number (>=?) (\S+) and (<=?) ([^\s,]+(?: pi)?)",
-        lambda m: f"{'[' if m[1] == '>=' else '('}{m[2]}, {m[4]}{']' if m[3] == '<=' else ')'}",
+        lambda m: f"in {'[' if m[1] == '>=' else '('}{m[2]}, {m[4]}{']' if m[3] == '<=' else ')'}",
         expected,
     )
     return expected.removesuffix("None") + "`None`" if expected.endswith("None") else expected
@@ -192,9 +203,8 @@ def materials() -> str:
     """Return the table of materials."""
     rows = ""
     for name, (density, friction, restitution) in MATERIALS.items():
-        alone = f"{density:g} | {friction:.2f} | {restitution:.2f}"
-        rows += f"| `{name}` | {alone} | {friction**2:.2f} | {restitution**2:.2f} |\n"
-    return MATERIALS_HEAD + rows + MATERIALS_TAIL
+        rows += f"| `{name}` | {density:g} | {friction:.2f} | {restitution:.2f} |\n"
+    return MATERIALS_HEAD + rows
 
 
 if __name__ == "__main__":

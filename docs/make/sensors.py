@@ -185,13 +185,16 @@ def page(kind: type[Sensor]) -> Path:
     return DOCS / "sensors" / f"{snake_case(kind.__name__)}.md"
 
 
-def with_table(text: str, kind: type[Sensor]) -> str:
-    """Return a page's text with the table of the sensor's own fields between its marks."""
-    rows = "".join(fields.row(kind, field) for field in fields.fields_of(kind))
-    table = fields.TABLE_HEAD + rows if rows else "It has the fields of all sensors alone.\n"
-    made = f"<!-- fields -->\n\n{table}\n<!-- /fields -->"
+def with_fields(text: str, kind: type[Sensor]) -> str:
+    """Return a page's text with the list of the sensor's own fields between its marks."""
+    lines = "\n".join(fields.line(kind, field) for field in fields.fields_of(kind))
+    made = f"""<!-- fields -->
+
+{lines or "It has the fields of all sensors alone."}
+
+<!-- /fields -->"""
     new, count = re.subn(r"<!-- fields -->.*<!-- /fields -->", lambda _: made, text, flags=re.S)
-    assert count == 1, f"{page(kind).name} has no marks for the table of fields"
+    assert count == 1, f"{page(kind).name} has no marks for its fields"
     return new
 
 
@@ -219,6 +222,6 @@ def draw(kind: type[Sensor]) -> None:
 if __name__ == "__main__":
     for kind in SCENES:
         path = page(kind)
-        path.write_text(with_table(path.read_text(encoding="utf-8"), kind), encoding="utf-8")
+        path.write_text(with_fields(path.read_text(encoding="utf-8"), kind), encoding="utf-8")
         draw(kind)
     INDEX.write_text(with_rows(INDEX.read_text(encoding="utf-8")), encoding="utf-8")

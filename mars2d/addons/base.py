@@ -43,13 +43,11 @@ class Addon(Stateful):
 
     friction: float = entry(
         default=1.0, check=surface_friction,
-        doc="of its obstacles, a number or a material's name; "
-        "by default a contact has the product of both",
+        doc="of its obstacles; a contact has the product of both",
     )  # fmt: skip
     restitution: float = entry(
         default=1.0, check=surface_restitution,
-        doc="of its obstacles, a number or a material's name; "
-        "by default a contact has the product of both",
+        doc="of its obstacles; a contact has the product of both",
     )  # fmt: skip
     static_friction: float | None = number(
         default=None, low=0, high=1e3, optional=True,

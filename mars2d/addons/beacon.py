@@ -43,7 +43,7 @@ class Beacon(Addon):
     )
     closed: bool = flag(
         default=True,
-        doc="whether it continues from the path's end to its start; else it stops at the end",
+        doc="whether it goes on from the path's end to its start",
     )
     color: str = entry(default="#e8c500", check=color, doc="its colour, for pictures only")
 

@@ -103,7 +103,7 @@ class Communication(Addon):
     )
     bandwidth: float | None = number(
         default=None, low=1, high=1e12, unit="bytes/s", optional=True,
-        doc="how fast a robot sends; what would wait for over a second is dropped; None: at once",
+        doc="how fast a robot sends; None: at once",
     )  # fmt: skip
 
     def _validate(self) -> None:

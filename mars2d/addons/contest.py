@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 from abc import abstractmethod
 from typing import Any, ClassVar, NamedTuple, Self
 
@@ -83,7 +82,7 @@ class Contest(Addon):
 
     roles: tuple[Role, ...] = entry(
         check=_roles, kw_only=False,
-        doc="the robots of both roles by name or index, hunters first if any",
+        doc="the robots of both roles",
     )  # fmt: skip
 
     scored: ClassVar[tuple[str, str]] = ("", "")
@@ -104,14 +103,9 @@ class Contest(Addon):
     def aim(self, role: str, scenario: Any) -> str:  # noqa: ARG002
         """Return how a role wins, in a few words for people, such as ``"catch blue"``.
 
-        scenario: of the game. By default empty: then only `counts` explains the game.
+        scenario: of the game. By default empty.
         """
         return ""
-
-    @property
-    def counts(self) -> str:
-        """What decides, in a few sentences for people; by default the docstring of its class."""
-        return inspect.cleandoc(type(self).__doc__ or "").partition("\n\n")[0].replace("\n", " ")
 
     @property
     def winner(self) -> str | None:

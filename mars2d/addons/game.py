@@ -69,7 +69,7 @@ class Game(Elimination):
 
     capture: str | float | None = entry(
         default=CONTACT, check=checks.optional(_capture), unit="m",
-        doc="'contact', 'sight', a hunter's distance from an evader, or None: nobody is caught",
+        doc="what catches an evader; None: nothing",
     )  # fmt: skip
     goal: Outline | None = entry(
         default=None, check=checks.optional(checks.outline, 3), unit="m",
@@ -77,7 +77,7 @@ class Game(Elimination):
     )  # fmt: skip
     hunted: tuple[str | int, ...] | None = entry(
         default=None, check=checks.optional(robots_of),
-        doc="the robots to catch, if not those of the second role, which then help them",
+        doc="the robots to catch, if not those of the second role",
         names="robot",
     )  # fmt: skip
     wanted: int | None = integer(
@@ -90,7 +90,7 @@ class Game(Elimination):
     )
     par: float | None = number(
         default=None, above=0, high=1e9, optional=True, unit="s",
-        doc="when time is over for who has to catch, or to reach the goal; None: the stop time",
+        doc="when the time is over; None: the stop time",
     )  # fmt: skip
     to_the_end: bool = flag(
         default=False, doc="go on, though it is decided, until nobody is left to catch"
@@ -252,36 +252,6 @@ class Game(Elimination):
         if self.hunted is not None:
             return f"let nobody catch {whom} {time}"
         return f"stay out of sight {time}" if self.capture == SIGHT else f"stay free {time}"
-
-    @property
-    def counts(self) -> str:
-        """What is a capture, and who has won, in a few sentences."""
-        (hunting, hunters), (evading, evaders) = self.roles
-        count = len(evaders if self.hunted is None else self.hunted)
-        needed = self.wanted or count
-        hunter = f"the {hunting}"
-        if len(hunters) > 1:
-            hunter = f"one of {len(hunters)} {hunting.removesuffix('s')}s"
-        at_once = f", {self.together} of them at once" if self.together > 1 else ""
-        evader = f"the {evading}" if self.hunted is None else "the hunted one"
-        evader = evader if count == 1 else f"one of {count}"
-        how = {
-            CONTACT: f"touches {evader}",
-            SIGHT: f"sees {evader}, with no obstacle between their middles",
-        }.get(str(self.capture), f"comes within {self.capture} m of {evader}, middle to middle")
-        hunters_win, evaders_win = wins(hunting), wins(evading)
-        over = f"{self.par:g} s are over" if self.par else "time runs out"
-        in_goal = f"The {evaders_win} when {_so_many_are(count, needed)} in the goal"
-        if self.capture is None:
-            return f"Nobody is caught. {in_goal}. If {over} before, the {hunters_win}."
-        sentences = (
-            f"A capture is when {hunter} {how}{at_once}.",
-            "Who is caught stands still." if count > 1 else "",
-            f"The {hunters_win} with {'the capture' if needed == 1 else f'{needed} captures'}.",
-            f"{in_goal} uncaught." if self.goal is not None else "",
-            f"If {over} before, the {evaders_win if self.goal is None else hunters_win}.",
-        )
-        return " ".join(filter(None, sentences))
 
     # -- how it looks ------------------------------------------------------------------------------
 

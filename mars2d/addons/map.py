@@ -34,7 +34,7 @@ class Map(Addon):
 
     outlines: Sequence[Outline] = entry(
         default=None, check=optional(outlines), unit="m", kw_only=False,
-        doc="the obstacles: two vertices make a wall, more a closed polygon",
+        doc="the obstacles",
     )  # fmt: skip
     walls: Sequence[Outline] = entry(
         default=(), check=polylines, unit="m", doc="walls of two or more vertices, not closed"

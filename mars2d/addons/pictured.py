@@ -24,7 +24,7 @@ class Pictured(Addon):
     image: str | None = entry(default=None, check=image_file, doc="a PNG file")
     bounds: Bounds | None = entry(
         default=None, check=image_bounds, unit="m",
-        doc="the area of the image: (xmin, xmax, ymin, ymax)",
+        doc="the area of the image",
     )  # fmt: skip
 
     def _validate(self) -> None:

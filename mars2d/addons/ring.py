@@ -83,17 +83,6 @@ class Ring(Elimination):
         (first, _), _ = self.roles
         return f"shove {listed(scenario, self.teams(scenario)[role == first])} out of the ring"
 
-    @property
-    def counts(self) -> str:
-        """Who is out, and who has won, in a few sentences."""
-        several = any(len(robots) > 1 for _, robots in self.roles)
-        lost = "the role whose robots are all out has lost" if several else "who is out has lost"
-        return (
-            f"A robot is out when its middle is more than {self.radius:g} m from the middle of the "
-            f"ring: {lost}. It is a draw if both leave in the same control step, and when time is "
-            "over."
-        )
-
     # -- how it looks ------------------------------------------------------------------------------
 
     def paint(self, scene: Scene, area: Outline) -> None:  # noqa: ARG002

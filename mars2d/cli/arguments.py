@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Callable, Iterator
-from concurrent.futures import Executor
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -55,7 +53,6 @@ OUTPUTS = {
     "figure": figure.SUFFIXES,
     "video": film.SUFFIXES,
     "html": (".html", ".htm"),
-    "rules": (".html", ".htm"),
     "out": (".csv",),
 }
 """The arguments that name output files, with their possible suffixes."""
@@ -113,7 +110,6 @@ SHARED: dict[str, dict[str, Any]] = {
     "--dark": _LOOKS,
     "--text": option("X", "the window's text X times as large", _TEXT),
     "--workers": option("N", "processes; by default one per core", int),
-    "--cluster": option("ADDRESS", "a Dask scheduler, such as tcp://10.0.0.5:8786"),
     "--json": option(None, "print the outcome as one line of JSON"),
 }
 """The arguments that several verbs have, by name."""
@@ -150,16 +146,3 @@ def preferences_of(arguments: argparse.Namespace) -> Preferences:
     from mars2d.window.screen.memory import Memory
 
     return Memory().preferences(dark=arguments.dark, text=arguments.text)
-
-
-@contextmanager
-def workers_of(arguments: argparse.Namespace) -> Iterator[tuple[Executor | None, int | None]]:
-    """Yield the executor and the number of workers that --workers and --cluster ask for."""
-    from mars2d.study.cluster import cluster
-
-    if arguments.cluster is None:
-        yield None, arguments.workers
-        return
-    refuse(arguments, "workers", "is of this machine: a cluster has its own; give it or --cluster")
-    with cluster(arguments.cluster) as executor:
-        yield executor, None

@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import argparse
-import re
-import warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -34,9 +31,6 @@ FPS, SIZE = 25, (1280, 720)
 
 DURATION = 12.0
 """The duration of a film for which no speed was given, seconds."""
-
-HAIR = 1e-9
-"""A time so little after the end, as a share of it, is the end: 600 * 0.1 is not quite 60."""
 
 Make = Callable[[], object]
 """A function that makes a film, or another file."""
@@ -125,10 +119,11 @@ def run_and_save(
         makers: dict[str, Make] = {"record": lambda: save_record(arguments.record, record)}
         made, troubles = produced(arguments, makers)
 
+    times, end = arguments.at, float(record.time[-1])
+    if times is not None:  # the run may have ended before
+        times = [*dict.fromkeys("end" if t == "end" or t > end else t for t in times)]
     makers = {
-        "figure": lambda: figure.save_figure(
-            record, arguments.figure, _times_within(arguments.at, record)
-        ),
+        "figure": lambda: figure.save_figure(record, arguments.figure, times),
         "html": lambda: record.save_html(arguments.html),
         "video": lambda: save_film(record, arguments, drawings),
     }
@@ -149,8 +144,7 @@ def produced(
     for name, make in makers.items():
         if (path := getattr(arguments, name)) is not None:
             try:
-                with naming_lost_letters():
-                    make()
+                make()
                 made[name] = path
             except Mars2dError as error:
                 troubles.append(error)
@@ -201,33 +195,3 @@ def save_record(target: Path, record: Record) -> None:
     for branch, saved in zip(record.branches, formats.save_branches(record, target), strict=True):
         end = f"left at {branch.time[-1]:g} s" if len(branch) else "empty"
         warn(f"another branch, {end}, is in {saved}")
-
-
-@contextmanager
-def naming_lost_letters() -> Iterator[None]:
-    """Replace matplotlib's long warnings of missing glyphs by one line that lists them."""
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.filterwarnings("always", message="Glyph ")
-        yield
-    lost: dict[str, None] = {}
-    for each in caught:
-        glyph = re.match(r"Glyph (\d+) ", str(each.message))
-        if glyph:
-            lost[repr(chr(int(glyph[1])))] = None
-        else:
-            warnings.warn_explicit(each.message, each.category, each.filename, each.lineno)
-    if lost:
-        warn(f"no font has {', '.join(lost)}: boxes stand for them")
-
-
-def _times_within(times: list[float | str] | None, record: Record) -> list[float | str] | None:
-    """Return the times up to the end of a run, which may have ended early, and then its end."""
-    if times is None:
-        return None
-    end = float(record.time[-1])
-    beyond = [t for t in times if not isinstance(t, str) and t > end + HAIR * abs(end)]
-    if not beyond:
-        return times
-    warn(f"the run ended at {end:g} s, which is drawn for {', '.join(f'{t:g}' for t in beyond)} s")
-    within = [t for t in times if t not in beyond and t != "end"]
-    return [*within, "end"]

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mars2d.core.errors import InputError
 from mars2d.core.progress import progress
 from mars2d.core.terminal import tell, warn
 from mars2d.output.raster import require_pygame
-from mars2d.scenario.examples import courses, examples, experiment_name, title_of
+from mars2d.scenario.examples import courses, title_of
 from mars2d.scenario.experiment import Experiment
 from mars2d.world.loop import simulate
 from mars2d.world.world import Watcher, World
@@ -51,19 +50,6 @@ def run_headless(
     last = experiment.scenario.last_iteration
     with progress(last, "step") as update:
         return simulate(experiment, speed, [*watchers, lambda at: update(at.iteration)], log)
-
-
-def source_of(name: str, path: Path, otherwise: str = "") -> str:
-    """Return the experiment that a file names: a file here or beside that file, or an example.
-
-    otherwise: what there is to do where it is none of these.
-    """
-    for place in (Path(name), path.parent / name, path.parent / Path(name).name):
-        if name and place.is_file():
-            return str(place)
-    if experiment_name(Path(name)) in examples():
-        return experiment_name(Path(name))
-    raise InputError(f"{path}: {name} is neither in this folder nor beside it{otherwise}")
 
 
 def print_table(title: str, lines: Mapping[str, str]) -> None:

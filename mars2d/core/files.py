@@ -19,9 +19,6 @@ from mars2d.core.errors import InputError, nearest
 REPLACED_OPEN = sys.platform != "win32"
 """Whether the system lets a file be replaced while it is open."""
 
-LOCKED_BYTE = 2**40
-"""The byte to lock on systems that lock bytes: far behind the end of any file."""
-
 
 def why_unwritable(target: Path) -> str:
     """Return why a file can't be written, as far as it can be told before, or an empty text."""
@@ -48,18 +45,14 @@ def writing(target: Path) -> Iterator[None]:
 
 
 @contextmanager
-def atomic_write(target: Path, held: BinaryIO | None = None) -> Iterator[BinaryIO]:
+def atomic_write(target: Path) -> Iterator[BinaryIO]:
     """Open a new file, which takes the place of `target` once everything is written.
 
     If writing fails, the previous file is left untouched. Its permissions are kept, and a symbolic
-    link still points to it. held: the file that is replaced, where the caller has it by `growing`.
-    Raises InputError if the file can't be written, for example because the disk is full, or because
-    something else is adding to it.
+    link still points to it. Raises InputError if the file can't be written, for example because the
+    disk is full.
     """
     _refuse_unwritable(target)
-    if held is None:
-        with suppress(OSError), target.open("rb") as file:  # there may be no such file yet
-            lock(file, target, shared=True)
     whole = Path(os.path.realpath(target))
     part = whole.with_name(f".mars2d-{token_hex(8)}.part")
     with writing(target):
@@ -74,47 +67,13 @@ def atomic_write(target: Path, held: BinaryIO | None = None) -> Iterator[BinaryI
 
 
 def growing(path: Path, *, afresh: bool = False) -> BufferedRandom:
-    """Open a file to which data are added for a long time, and lock it until it is closed.
+    """Open a file to which data are added for a long time; it is made if it is not there.
 
-    It is made if it is not there. afresh: drop what it holds. Raises InputError where it can't be
-    written, and where something else is writing to it.
+    afresh: drop what it holds. Raises InputError where it can't be written.
     """
     _refuse_unwritable(path)
     with writing(path):
-        path.touch()
-        file = path.open("r+b" if afresh else "a+b")
-    try:
-        lock(file, path)
-        if afresh:
-            file.truncate(0)
-    except BaseException:
-        file.close()
-        raise
-    return file
-
-
-def lock(file: BinaryIO, path: Path, *, shared: bool = False) -> None:
-    """Lock a file until it is closed or the process ends.
-
-    shared: others may lock it in this way as well; Windows has no such locks. Raises InputError if
-    it is locked already. Does nothing on systems without locks.
-    """
-    with suppress(ImportError, OSError):
-        try:
-            if sys.platform == "win32":
-                import msvcrt
-
-                os.lseek(file.fileno(), LOCKED_BYTE, os.SEEK_SET)
-                msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
-            else:
-                import fcntl
-
-                fcntl.flock(file, (fcntl.LOCK_SH if shared else fcntl.LOCK_EX) | fcntl.LOCK_NB)
-        except (BlockingIOError, PermissionError):
-            raise InputError(
-                f"{path}: another process is writing to it, or another part of this one: wait for "
-                "its end, or give another name"
-            ) from None
+        return path.open("w+b" if afresh else "a+b")
 
 
 def _refuse_unwritable(target: Path) -> None:

@@ -44,8 +44,6 @@ CONTROLS = {
         "M7 17a3 3 0 1 0 6 0a3 3 0 1 0-6 0",
     ),
     "scopes": Control("Scopes", "Q", "M4 4v16h16M7 15l4-6 4 4 5-8"),
-    "figure": Control("Save as a figure", "", "M4 4h16v16H4ZM7 16l4-5 3 3 3-6"),
-    "table": Control("Save the numbers as CSV", "", "M4 5h16v14H4ZM4 10h16M4 14.5h16M10 5v14"),
     "predictions": Control("Predictions", "F3", "M4 6l2 2 3.5-4M4 15l2 2 3.5-4M13 6.5h7M13 15.5h7"),
     "lesson": Control("Lesson", "F4", "M4 5h7l1 1 1-1h7v14h-7l-1 1-1-1H4ZM12 6v13"),
     "drive": Control(
@@ -74,7 +72,7 @@ CONTROLS = {
         "M3 7.5h4l2-3h6l2 3h4V19H3ZM8.5 13a3.5 3.5 0 1 0 7 0a3.5 3.5 0 1 0-7 0",
     ),
     "film": Control("Film", "V", "M3 6h12v12H3ZM15 10.5l6-3.5v10l-6-3.5"),
-    "python": Control("Save as Python", "C", "M8 7l-5 5 5 5M16 7l5 5-5 5M14 5l-4 14"),
+    "scenario": Control("Save scenario", "C", "M8 7l-5 5 5 5M16 7l5 5-5 5M14 5l-4 14"),
     "screen": Control("Full screen", "F11", "M14 4h6v6M20 4l-7 7M10 20H4v-6M4 20l7-7"),
     "dark": Control("Dark", "D", "M20 14.5A8.5 8.5 0 0 1 9.5 4 8.5 8.5 0 1 0 20 14.5Z"),
     "text": Control("Larger text", "Z", "M5 19 12 4l7 15M7.6 13.5h8.8"),

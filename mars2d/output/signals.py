@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
@@ -341,34 +339,6 @@ def without_nothing(signal: Signal) -> Signal:
     kept = [k for k in range(len(size)) if k == 0 or size[k] > NOTHING * size.max()]
     curves = tuple(signal.curves[k] for k in kept)
     return replace(signal, values=signal.values[:, kept], curves=curves)
-
-
-# -- as a table -----------------------------------------------------------------------------------
-
-
-def as_csv(record: Rows, found: Sequence[Signal]) -> str:
-    """Return signals with curves (T, k) as a table of comma-separated values, a row for each time.
-
-    The columns are the time [s] and each curve, with its body and unit.
-    """
-    names, columns = ["time [s]"], [record.time]
-    for signal in found:
-        unit = f" [{signal.unit}]" if signal.unit else ""
-        each = signal.values.shape[1] // max(1, len(signal.bodies))
-        for k in range(signal.values.shape[1]):
-            if signal.bodies:
-                body = record.scenario.bodies[signal.bodies[k // each]]
-                part = f".{k % each}" if each > 1 else ""
-                names.append(f"{signal.name}{part} of {body.name}{unit}")
-            else:
-                same = signal.curves[k] == signal.name
-                names.append(f"{signal.name}{'' if same else f': {signal.curves[k]}'}{unit}")
-            columns.append(signal.values[:, k])
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(names)
-    writer.writerows(zip(*(column.tolist() for column in columns), strict=True))
-    return text.getvalue()
 
 
 # -- thinning of long columns ----------------------------------------------------------------------

@@ -1,21 +1,17 @@
-"""An examination of this machine: versions, extras, display, engine, plug-ins, physics."""
+"""An examination of this machine: versions, extras, display, engine, physics."""
 
 from __future__ import annotations
 
-import json
 import os
 import platform
 import re
 import shlex
-import shutil
 import sys
-import sysconfig
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib.metadata import (
     PackageNotFoundError,
-    distribution,
     distributions,
     requires,
     version,
@@ -39,14 +35,6 @@ PURPOSES = {
     "video": "films as .mp4",
 }
 """What the extras of the installation are for."""
-
-TOOLS = {
-    "apt-get": "apt-get install gcc python{}.{}-dev",
-    "dnf": "dnf install gcc python3-devel",
-    "xcode-select": "xcode-select --install",
-    "winget": "winget install Microsoft.VisualStudio.2022.BuildTools",
-}
-"""The commands that install a C compiler and Python's headers, by the program that does so."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +63,6 @@ def examine() -> Iterator[Finding]:
         if every.issuperset(packages):  # the others are for developers
             yield _extra(name, packages)
     yield _engine()
-    yield from _plugins()
     yield _physics()
 
 
@@ -141,36 +128,15 @@ def _engine() -> Finding:
 
 
 def remedy() -> str:
-    """Return the command that gets the engine compiled on this machine."""
+    """Return how the engine gets compiled on this machine."""
     import mars2d
 
     if os.environ.get("MARS2D_PLAIN") == "1":
         return "set MARS2D_PLAIN=" if sys.platform == "win32" else "unset MARS2D_PLAIN"
-    tools = next((line for program, line in TOOLS.items() if shutil.which(program)), "")
-    compiler = (os.environ.get("CC") or sysconfig.get_config_var("CC") or "cl").split()[0]
-    if shutil.which(compiler) and Path(sysconfig.get_path("include"), "Python.h").exists():
-        tools = ""
     folder = Path(mars2d.__file__).parents[1]
-    if (folder / "pyproject.toml").exists():
-        again = f"--no-deps -e {shlex.quote(str(folder))}"
-    else:
-        told = json.loads(distribution("mars2d").read_text("direct_url.json") or "{}")
-        kind = f"{told['vcs_info']['vcs']}+" if "vcs_info" in told else ""
-        source = shlex.quote(f"{kind}{told['url']}") if told else "--no-binary mars2d mars2d"
-        again = f"--force-reinstall --no-deps --no-cache-dir {source}"
-    return " && ".join(filter(None, [tools.format(*sys.version_info), f"pip install {again}"]))
-
-
-def _plugins() -> Iterator[Finding]:
-    """Yield the plug-ins of other packages; a broken one is not a fault of MARS2D."""
-    from mars2d.scenario.registry import FAMILIES, misspelt_groups, plugins
-
-    for part in (part for family in FAMILIES for part in plugins(family)):
-        text = f"{part.name}, {part.family}, of {part.package} {part.version}"
-        problem = f": not usable: {part.problem}" if part.problem else ""
-        yield Finding("plug-in", text + problem, ok=None if problem else True)
-    for group in misspelt_groups():
-        yield Finding("plug-in", f"an entry point of the group {group}", ok=None)
+    ours = (folder / "pyproject.toml").exists()
+    again = f"-e {shlex.quote(str(folder))}" if ours else "--force-reinstall --no-cache-dir mars2d"
+    return f"install a C compiler and Python's headers, then pip install --no-deps {again}"
 
 
 def _physics() -> Finding:

@@ -39,9 +39,7 @@ class Animation(Description):
     neighbours: bool = flag(default=False, doc="draw the links between neighbours")
     ranges: bool = flag(default=False, doc="draw the range of radio")
     theory: bool = flag(default=False, doc="draw theoretical predictions, where add-ons do so")
-    wake_style: str = entry(
-        default="-", check=wake_style, doc="line style of the paths, as in Matlab's plot"
-    )
+    wake_style: str = entry(default="-", check=wake_style, doc="line style of the paths")
     playback_speed: float | str = entry(
         default=1.0,
         check=playback_speed,

@@ -127,15 +127,6 @@ def with_poses(scenario: Scenario, poses: Float) -> Scenario:
         raise
 
 
-def without_body(scenario: Scenario, body: int) -> Scenario:
-    """Return the scenario without a robot or prop: an index of `Scenario.bodies`."""
-    n = len(scenario.robots)
-    return scenario.replace(
-        robots=[robot for i, robot in enumerate(scenario.robots) if i != body],
-        props=[prop for i, prop in enumerate(scenario.props) if i + n != body],
-    )
-
-
 def obstruction(scenario: Scenario, poses: Float, body: int) -> str:
     """Return the reason why a body can't be where it is, such as "overlap red", or "".
 

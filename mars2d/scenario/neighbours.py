@@ -216,23 +216,11 @@ def _without_flat(triangles: Any, least: float) -> list[tuple[int, int]]:
     return list({tuple(sorted(edge)) for edge in sides.reshape(-1, 2).tolist()} - gone)
 
 
-EXPECTED = (
-    "an adjacency matrix (n, n) of numbers, a networkx graph of the nodes 0 to n - 1, or a pair "
-    "(n, edges)"
-)
+EXPECTED = "an adjacency matrix (n, n) of numbers, or a pair (n, edges)"
 
 
 def _edges(name: str, value: Any) -> tuple[int, Edges]:
     """Check a graph, and return the number of its nodes and its edges in order."""
-    if hasattr(value, "nodes") and hasattr(value, "is_directed"):
-        nodes, edges = [*value.nodes], [*value.edges()]
-        if {*nodes} != {*range(len(nodes))}:
-            raise InputError(
-                f"{name}: its nodes are {shown(nodes)}: expected 0, 1, 2, ..., the robots' indices;"
-                " networkx.convert_node_labels_to_integers makes them so"
-            )
-        back = [] if value.is_directed() else [(j, i) for i, j in edges]
-        return _of_pairs(name, len(nodes), edges + back)
     if isinstance(value, (list, tuple)) and len(value) == 2 and _whole(value[0]):
         return _of_pairs(name, *value)
     try:
@@ -266,15 +254,14 @@ def _of_pairs(name: str, n: int, edges: Any) -> tuple[int, Edges]:
 
 
 class Graph(Neighbourhood):
-    """A fixed graph: an adjacency matrix (n, n), a networkx graph, or the edges.
+    """A fixed graph: an adjacency matrix (n, n), or the edges.
 
     >>> Graph([[0, 1, 0], [1, 0, 1], [0, 1, 0]]).of(np.zeros((2, 3)))
     [[1], [0, 2], [1]]
 
     Entry (i, j) of the matrix is not zero where robot j is a neighbour of robot i, which sees it,
-    and may talk to it. A networkx graph has the nodes 0 to n - 1; an edge of a directed one goes
-    from the robot that sees to the one that is seen. The third form is a pair (n, edges), each edge
-    so directed; as that it is kept.
+    and may talk to it. The other form is a pair (n, edges), each edge from the robot that sees to
+    the one that is seen; as that it is kept.
 
     >>> Graph((3, [(0, 1), (2, 1)])).of(np.zeros((2, 3)))
     [[1], [], [1]]
@@ -301,6 +288,6 @@ class Graph(Neighbourhood):
 
 def neighbourhood(name: str, value: object) -> object:
     """Check a rule of neighbours; for a graph, say how it becomes one."""
-    if hasattr(value, "nodes") or isinstance(value, (np.ndarray, list, tuple)):
+    if isinstance(value, (np.ndarray, list, tuple)):
         raise wrong(name, value, "a rule; write Graph(...) of a graph")
     return instance(Neighbourhood, "Within(2), Nearest(3), Delaunay() or Graph(...)")(name, value)

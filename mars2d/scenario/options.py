@@ -20,9 +20,6 @@ from mars2d.scenario.scenario import Scenario
 MARGIN = 1.0
 """The distance from a map's walls to the edge of a workspace made for it, metres."""
 
-MAX_HINTS = 3
-"""The number of bodies for which an error names free room."""
-
 DEFAULT_WORKSPACE = Scenario.__dataclass_fields__["workspace"].default
 
 
@@ -156,7 +153,7 @@ def with_map(scenario: Scenario, chart: Map, options: Mapping[str, Any]) -> Scen
     """Return the scenario with a map instead of its own, and other options set.
 
     A workspace that is the default one, or smaller than the map, becomes the rectangle around the
-    map. Raises InputError, which names free room, if a body would stand in a wall.
+    map. Raises InputError if a body would stand in a wall.
     """
     rest = dict(options)
     for name in reading_options():
@@ -171,10 +168,7 @@ def with_map(scenario: Scenario, chart: Map, options: Mapping[str, Any]) -> Scen
         chart = own.replace(outlines=chart.outlines, walls=chart.walls)
     others = [addon for addon in scenario.addons if not isinstance(addon, Map)]
     bare = override(scenario.replace(addons=others, workspace=None), rest)
-    try:
-        return bare.replace(addons=[*bare.addons, chart], workspace=workspace)
-    except InputError as error:
-        raise InputError(f"{error}{_room(bare, chart, workspace)}") from error
+    return bare.replace(addons=[*bare.addons, chart], workspace=workspace)
 
 
 def _workspace_for(scenario: Scenario, chart: Map) -> Outline | None:
@@ -186,31 +180,3 @@ def _workspace_for(scenario: Scenario, chart: Map) -> Outline | None:
     if within and scenario.workspace != DEFAULT_WORKSPACE:
         return scenario.workspace
     return rectangle(xmin - MARGIN, xmax + MARGIN, ymin - MARGIN, ymax + MARGIN)
-
-
-def _room(scenario: Scenario, chart: Map, workspace: Outline | None) -> str:
-    """Return where bodies that stand in a wall, or outside, would have room."""
-    from mars2d.addons.maps import nearest_room
-
-    outlines = list(chart.obstacles())
-    if not outlines:
-        return ""
-    within = rectangle(*bounds_of([p for o in outlines for p in o]))
-    names = [
-        f"{kind}.{k}" for kind in ("robots", "props") for k in range(len(vars(scenario)[kind]))
-    ]
-    hints: list[str] = []
-    for name, body in zip(names, scenario.bodies, strict=True):
-        center, radius = body.bound
-        place = nearest_room(center, radius, outlines, workspace or within)
-        if place is None:
-            return f"; there is no room for {body.name} anywhere"
-        if place == center:
-            continue
-        if len(hints) == MAX_HINTS:
-            return f"; {', '.join(hints)}, and others have none where they stand"
-        x, y = nearest_room(center, radius, outlines, within) or place  # indoors first
-        outlines.append(rectangle(x - radius, x + radius, y - radius, y + radius))  # now taken
-        x, y = x + body.pose[0] - center[0], y + body.pose[1] - center[1]
-        hints.append(f"{body.name} has room at {name}.pose=({x:.3f}, {y:.3f}, {body.pose[2]:.4g})")
-    return f"; {', '.join(hints)}" if hints else ""

@@ -1,4 +1,4 @@
-"""Text in brackets, wrapped to a width, for Python files and TOML files."""
+"""Text in brackets, wrapped to a width, for TOML files."""
 
 from __future__ import annotations
 
@@ -11,9 +11,12 @@ from mars2d.core.materials import Coefficient
 WIDTH = 100
 """Columns of a line."""
 
+NONE = "none"
+"""The text that stands for None."""
+
 
 class Brackets(NamedTuple):
-    """A bracketed list: ``[1, 2]``, ``{a = 1}``, ``Robot(pose=(0.0, 0.0, 0.0))``.
+    """A bracketed list: ``[1, 2]``, ``{ a = 1 }``.
 
     opening: the bracket and the text before it. filled: a list that does not fit on one line has as
     many items per line as fit, else one.
@@ -62,15 +65,12 @@ def _flat(node: Node) -> str:
     return node.opening + ", ".join(map(_flat, node.items)) + node.closing
 
 
-def plain(value: Any, none: str = "None") -> str:
-    """Return a number, a word or a material as text; numbers are read back bit for bit.
-
-    none: the text for None, with which Python's words for truth are written, else those of TOML.
-    """
+def plain(value: Any) -> str:
+    """Return a number, a word or a material as text; numbers are read back bit for bit."""
     if value is None:
-        return none
+        return quoted(NONE)
     if isinstance(value, bool):
-        return str(value) if none == "None" else str(value).lower()
+        return str(value).lower()
     if isinstance(value, str):
         return quoted(value)
     if isinstance(value, Coefficient):
@@ -84,7 +84,7 @@ def comment(text: str) -> str:
 
 
 def quoted(text: str) -> str:
-    r"""Return text in double quotes, as both Python and TOML read it.
+    r"""Return text in double quotes.
 
     >>> print(quoted('a "wall"\n'))
     "a \"wall\"\n"

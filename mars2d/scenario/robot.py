@@ -65,13 +65,11 @@ class Robot(Description):
     )  # fmt: skip
     friction: float = entry(
         default=0.5, check=surface_friction,
-        doc="coefficient of friction, or a material's name; "
-        "by default a contact has the product of both",
+        doc="coefficient of friction; a contact has the product of both",
     )  # fmt: skip
     restitution: float = entry(
         default=0.0, check=surface_restitution,
-        doc="0 stops, 1 bounces back; or a material's name; "
-        "by default a contact has the product of both",
+        doc="0 stops, 1 bounces back; a contact has the product of both",
     )  # fmt: skip
     static_friction: float | None = number(
         default=None, low=0, high=1e3, optional=True,

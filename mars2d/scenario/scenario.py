@@ -110,12 +110,11 @@ class Scenario(Description):
         low=0,
         high=1e12,
         unit="s",
-        doc="the longest duration; the last step is the last multiple of the sampling time",
+        doc="the longest duration",
     )
     stop_on: str | Pairs | None = entry(
         default=None, check=stop_on,
-        doc="touches that end the experiment: 'contact' for any, or pairs of names of bodies, of "
-        "a game's roles, or 'wall'",
+        doc="touches that end the experiment: any, or of bodies, roles or 'wall' by name",
         names="body",
     )  # fmt: skip
     command_delay: float = number(

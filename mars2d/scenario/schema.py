@@ -8,10 +8,11 @@ from typing import Any
 from mars2d.core import checks
 from mars2d.core.description import Description, Schema, schema_of
 from mars2d.scenario import serialize
+from mars2d.scenario.pretty import NONE
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import Place
-from mars2d.scenario.toml_file import FORMAT, NONE, READY_MADE, takes_none
+from mars2d.scenario.toml_file import FORMAT, READY_MADE, takes_none
 
 LAW: Schema = {
     "type": "string",
@@ -23,9 +24,8 @@ LAW: Schema = {
 def schema() -> Schema:
     """Return the JSON Schema (2020-12) of the data in a scenario file.
 
-    It knows the parts that other packages have registered. It accepts every file that
-    `save_scenario` writes, and refuses every number beyond the bounds of its field. Conditions
-    between fields, such as robots that overlap, are beyond it.
+    It accepts every file that `save_scenario` writes, and refuses every number beyond the bounds of
+    its field. Conditions between fields, such as robots that overlap, are beyond it.
     """
     places = [place for fields in serialize.PARTS.values() for place in fields.values()]
     bases = {place.base for place in (*places, READY_MADE)}

@@ -23,7 +23,7 @@ from mars2d.scenario.controllers import Controller
 from mars2d.scenario.material_pair import MaterialPair
 from mars2d.scenario.neighbours import Delaunay, Everyone, Graph, Nearest, Neighbourhood, Within
 from mars2d.scenario.random_starts import RandomStarts
-from mars2d.scenario.registry import FAMILIES, family_of, members, plugin, plugins
+from mars2d.scenario.registry import FAMILIES, family_of, members
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
@@ -75,12 +75,8 @@ def kinds_of(base: type[Description]) -> dict[str, type[Description]]:
 
 def kind_of(plain: dict[str, Any]) -> type[Description] | None:
     """Return the class of a part that `from_description` made plain; None if it is not known."""
-    name, own = plain.get("type"), plain.get("own")
-    if not isinstance(name, str):
-        return None
-    if "from" in plain and own in _OWN:
-        return plugin(_OWN[own][1], name, plain["from"])
-    return _kinds().get(name)
+    name = plain.get("type")
+    return _kinds().get(name) if isinstance(name, str) else None
 
 
 def is_ready_made(kind: type | None) -> bool:
@@ -121,10 +117,8 @@ def from_description(value: Any) -> Any:
         for base in (Scenario, Robot, Animation):  # a derived class counts as one of them
             if isinstance(value, base):
                 return {"type": base.__name__, **_fields(value, base)}
-        own, family = next((n, f) for n, (base, f) in _OWN.items() if isinstance(value, base))
-        shippers = [p.package for p in plugins(family) if p.kind is kind] if family else []
-        shipped = {"from": shippers[0]} if shippers else {}
-        return {"type": kind.__name__, "own": own, **shipped, **_fields(value), **_moving(value)}
+        own = next(name for name, base in _OWN.items() if isinstance(value, base))
+        return {"type": kind.__name__, "own": own, **_fields(value), **_moving(value)}
     if isinstance(value, (list, tuple)):
         return [from_description(item) for item in value]
     if isinstance(value, Coefficient):
@@ -163,21 +157,11 @@ def _moving(value: Description) -> dict[str, Any]:
     return {}
 
 
-_OWN: dict[str, tuple[type[Description], str]] = {
-    "drive": (Drive, "bodies"),
-    "prop": (Prop, "props"),
-    "joint": (Joint, "joints"),
-    "shape": (Shape, ""),
-    "add-on": (Addon, "addons"),
-    "neighbourhood": (Neighbourhood, ""),
-    "controller": (Controller, "controllers"),
-    "sensor": (Description, "sensors"),
-}
-"""The kinds of parts of the user's own, by their names in files.
-
-Each with the class that they derive from, and the family in which another package can ship one by
-an entry point, if it can.
-"""
+_OWN: dict[str, type[Description]] = {
+    "drive": Drive, "prop": Prop, "joint": Joint, "shape": Shape, "add-on": Addon,
+    "neighbourhood": Neighbourhood, "controller": Controller, "sensor": Description,
+}  # fmt: skip
+"""The classes that parts of the user's own derive from, by their names in files."""
 
 LOST = "This is code, which is not written down"
 """What files say about parts that they do not hold."""
@@ -193,8 +177,7 @@ def to_scenario(data: Any) -> tuple[Scenario, tuple[str, ...]]:
     user's own. Of parts of the user's own, sensors and joints are left out, and add-ons keep their
     obstacles only. A prop is replaced by a Solid of its shape, mass and surface, a shape by the
     parts that were drawn of it, a drive by a Unicycle, a neighbourhood by Everyone. All are named
-    in the second value, such as ``sensor Eyes``, those of a package that is not installed as
-    ``sensor Lidar (of the package acme)``. Raises InputError for anything but a scenario.
+    in the second value, such as ``sensor Eyes``. Raises InputError for anything but a scenario.
     """
     missing: list[str] = []
     result = _to_description(data, missing)
@@ -212,15 +195,6 @@ def without_code(scenario: Scenario) -> tuple[Scenario, tuple[str, ...]]:
     return kept.with_laws([robot.controller for robot in scenario.robots]), missing
 
 
-def to_value(data: Any) -> Any:
-    """Return the value that `from_description` made plain; LookupError if a part is missing."""
-    missing: list[str] = []
-    value = _to_description(data, missing)
-    if missing:
-        raise LookupError(", ".join(missing))
-    return value
-
-
 def _to_description(value: Any, missing: list[str]) -> Any:
     if isinstance(value, list):
         items = [_to_description(item, missing) for item in value]
@@ -229,9 +203,7 @@ def _to_description(value: Any, missing: list[str]) -> Any:
         return value
     if _is_function(value):
         return value["function"]
-    if "from" in value and (shipped := _shipped(value, missing)) is not None:
-        return shipped
-    unread = ("type", "own", "from", "controller")
+    unread = ("type", "own", "controller")
     read = {name: each for name, each in value.items() if name not in unread}
     lost = next((each["function"] for each in read.values() if _is_function(each)), "")
     if lost and "own" not in value:
@@ -241,8 +213,7 @@ def _to_description(value: Any, missing: list[str]) -> Any:
     if "controller" in value and is_ready_made(kind_of(value["controller"] or {})):
         fields["controller"] = _to_description(value["controller"], missing)
     if "own" in value:
-        package = f" (of the package {value['from']})" if "from" in value else ""
-        missing.append(f"{value['own']} {value['type']}{package}")
+        missing.append(f"{value['own']} {value['type']}")
         if value["own"] == "prop":
             missing.extend(f"joint {joint['type']} of {value['type']}" for joint in value["joints"])
         return _stand_in(value["own"], fields)
@@ -251,21 +222,6 @@ def _to_description(value: Any, missing: list[str]) -> Any:
 
 def _is_function(value: Any) -> bool:
     return isinstance(value, dict) and [*value] == ["function"]
-
-
-def _shipped(value: dict[str, Any], missing: list[str]) -> Description | None:
-    """Return a part of another package; None if it is not installed, or has other fields now."""
-    kind = plugin(_OWN[value["own"]][1], value["type"], value["from"])
-    if kind is None:
-        return None
-    lost: list[str] = []
-    known = [f.name for f in dataclasses.fields(kind) if f.name in value]
-    try:
-        part = kind(**{name: _to_description(value[name], lost) for name in known})
-    except Exception:  # another version's fields, or checks
-        return None
-    missing.extend(lost)
-    return part
 
 
 @cache

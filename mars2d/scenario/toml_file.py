@@ -23,7 +23,7 @@ from mars2d.scenario import serialize
 from mars2d.scenario.code_file import law_in, located
 from mars2d.scenario.controllers import Controller
 from mars2d.scenario.law_reference import Reference, seen_from
-from mars2d.scenario.pretty import WIDTH, Brackets, Node, comment, laid_out, plain, quoted
+from mars2d.scenario.pretty import NONE, WIDTH, Brackets, Node, comment, laid_out, plain, quoted
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import Place
@@ -37,9 +37,6 @@ MAX_BYTES = 5_000_000
 
 SCHEMA_FILE = "mars2d.schema.json"
 """The file beside a scenario in which editors look for its schema: `mars2d doctor --schema`."""
-
-NONE = "none"
-"""The text that stands for None."""
 
 HEADS = ("format", "control")
 """The keys of a file that are no fields of its scenario."""
@@ -162,7 +159,7 @@ class _Writer:
         if isinstance(value, (list, tuple)):
             of_parts = any(isinstance(item, Description) for item in value)
             return Brackets("[", [self._plain(v, place) for v in value], "]", filled=not of_parts)
-        return plain(value, quoted(NONE))
+        return plain(value)
 
 
 def _type(place: Place, part: Description) -> list[str]:
@@ -382,7 +379,7 @@ def takes_none(field: dataclasses.Field[Any]) -> bool:
 def _accepts(check: Check, value: object) -> bool:
     try:
         check("", value)
-    except Exception:  # another package's check may refuse by any error
+    except Exception:  # a user's own check may refuse by any error
         return False
     return True
 

@@ -259,7 +259,7 @@ class Sensor(Stateful):
     )
     noise: float | tuple[float, ...] = entry(
         default=0.0, check=spread("a standard deviation"),
-        doc="standard deviation of each reading, in its unit; one number, or one for each quantity",
+        doc="standard deviation of each reading, in its unit",
     )  # fmt: skip
     outliers: float = number(
         default=0.0, low=0, high=1, doc="probability that a value is replaced by a random one"
@@ -267,7 +267,7 @@ class Sensor(Stateful):
     dropouts: float = number(default=0.0, low=0, high=1, doc="probability that a value is lost")
     resolution: float | tuple[float, ...] = entry(
         default=0.0, check=spread("a step"),
-        doc="values are rounded to multiples of it; one number, or one for each quantity",
+        doc="values are rounded to multiples of it",
     )  # fmt: skip
     recorded: bool = flag(
         default=True,

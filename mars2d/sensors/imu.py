@@ -69,7 +69,7 @@ class Imu(Sensor):
     noise: float | tuple[float, ...] = entry(
         default=0.0, check=spread("a density"),
         unit="m/s^2/sqrt(Hz), m/s^2/sqrt(Hz), rad/s/sqrt(Hz)",
-        doc="density of the white noise; one number, or one for each quantity",
+        doc="density of the white noise",
     )  # fmt: skip
     bias: tuple[float, float, float] = entry(
         default=(0.0, 0.0, 0.0), check=_three, unit="m/s^2, m/s^2, rad/s", doc="constant errors"

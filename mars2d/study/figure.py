@@ -17,17 +17,21 @@ from mars2d.output.figures.legend import Entry
 from mars2d.output.figures.panels import (
     caption,
     checked_axes,
+    frame_panel,
     letters_in,
     name_curves,
     say,
     set_span,
+    short_number,
+    size_of,
 )
 from mars2d.output.figures.style import DASHES, Style, style_of
-from mars2d.study.axis import dress, name_axis, scale_to_100
 from mars2d.study.estimates import Estimate, estimates
 from mars2d.study.layout import Layout, layout_of
 from mars2d.study.statistics import confident
 from mars2d.study.table import Table
+from mars2d.study.text import in_words
+from mars2d.study.units import with_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -44,6 +48,9 @@ MARKER_SIZE = 0.6
 
 LEGEND = 0.6
 """The longest name in a legend, as a share of the figure's width."""
+
+TURNED_LETTERS = 28
+"""The most letters of a value's name that is turned."""
 
 PANEL_HEIGHT = 1.5
 """The height of a panel, in heights of a panel over time."""
@@ -62,7 +69,7 @@ def plot_study(
     Means and shares have intervals of the given confidence, and each run is a faint dot. A mean of
     only some runs, because others have no number, is hollow; the panel below shows their share.
     x: the setting along the axis, by default the first with several numbers; each combination of
-    the others is a line. axes: one for each panel, row by row; by default those of a new figure.
+    the others is a line. axes: one for each panel; by default those of a new figure.
     style: as in `Record.plot`. Raises InputError if there is nothing to draw, or too much.
     """
     look, confidence = style_of(style), confident(confidence)
@@ -73,27 +80,23 @@ def plot_study(
     layout = layout_of(table, x)
     drawing = _Drawing(table, layout, look, confidence)
     with look.fonts():
-        grid = _grid(axes, shown, len(layout.columns), look)
-        for ax in grid.ravel():
-            dress(ax, layout, look)
-        for row, estimate in zip(grid, shown, strict=True):
-            drawing.panels(row, estimate)
-            caption(row[0], estimate.label, "%" if estimate.share else estimate.unit, look)
-        for k, ax in enumerate(grid.ravel()):
-            if axes is not None or k >= grid.size - len(layout.columns):
-                name_axis(ax, table, layout, k % len(layout.columns), look)
+        panels = _panels(axes, shown, look)
+        for ax, estimate in zip(panels, shown, strict=True):
+            _dress(ax, layout, look)
+            drawing.panel(ax, estimate)
+            caption(ax, estimate.label, "%" if estimate.share else estimate.unit, look)
+            if axes is not None or ax is panels[-1]:
+                _name_axis(ax, table, layout, look)
             else:
                 ax.tick_params(labelbottom=False)
-            ax.tick_params(labelleft=axes is not None or not k % len(layout.columns))
         kinds = " and ".join(sorted({"shares" if each.share else "means" for each in shown}))
         title = f"{table.experiment}: {kinds} with {100 * confidence:.4g} % intervals"
         if table.failed:
             title += f", {counted(len(table.failed), 'run')} failed"
-        above = _above(grid, own=axes is None)
-        name_curves(above, title, drawing.entries(above, shown), look)
+        name_curves(panels[0], title, drawing.entries(panels[0], shown), look)
     if axes is None:
-        show_in_notebooks(*grid.ravel())
-    return list(grid.ravel())
+        show_in_notebooks(*panels)
+    return panels
 
 
 def save_study_figure(
@@ -119,35 +122,52 @@ def save_study_figure(
 # -- panels ----------------------------------------------------------------------------------------
 
 
-def _grid(
-    axes: Sequence[Axes] | None, shown: Sequence[Estimate], wide: int, look: Style
-) -> NDArray[Any]:
-    """Return the panels' axes, (estimates, columns): those given, or those of a new figure."""
+def _panels(axes: Sequence[Axes] | None, shown: Sequence[Estimate], look: Style) -> list[Axes]:
+    """Return the axes of the panels: those given, or those of a new figure."""
     tall = len(shown)
     if axes is not None:
-        names = ", ".join(estimate.label for estimate in shown)
-        beside = f", {wide} side by side" if wide > 1 else ""
-        given = checked_axes(axes, tall * wide, f"({names}{beside})")
-        return np.array(given, dtype=object).reshape(tall, wide)
-    width = (look.single if wide == 1 else look.full) or (7.0 if wide == 1 else 2.5 * wide + 2.5)
+        return list(checked_axes(axes, tall, f"({', '.join(each.label for each in shown)})"))
     height = tall * PANEL_HEIGHT * look.panel + 0.09 * look.label
-    figure = new_figure(*(look.page or (width, height)))
-    return figure.subplots(tall, wide, sharex=True, sharey="row", squeeze=False)
+    figure = new_figure(*(look.page or (look.single or 7.0, height)))
+    return list(figure.subplots(tall, 1, sharex=True, squeeze=False)[:, 0])
 
 
-def _above(grid: NDArray[Any], *, own: bool) -> Axes:
-    """Return the axes above which title and legend stand; they span panels side by side.
+def _dress(ax: Axes, layout: Layout, look: Style) -> None:
+    """Set the scale, limits and ticks of the axis, grid and spines."""
+    from matplotlib.ticker import FuncFormatter, NullLocator
 
-    If the axes were given, return the first of them, since the space above others is not ours.
-    """
-    first: Axes = grid[0, 0]
-    if grid.shape[1] == 1 or not own:
-        return first
-    place = first.get_gridspec()
-    assert place is not None  # they are those of `figure.subplots`
-    wide = first.figure.add_subplot(place[0, :])
-    wide.set_axis_off()
-    return wide
+    if layout.logarithmic:
+        ax.set_xscale("log")
+        ax.xaxis.set_minor_locator(NullLocator())
+    ax.set_xlim(*layout.limits())
+    if layout.roomy() or not layout.numeric:
+        _name_values(ax, layout, look)
+    else:
+        ax.xaxis.set_major_formatter(FuncFormatter(short_number))
+    frame_panel(ax, look, [1, 2, 2.5, 5, 10])
+
+
+def _name_values(ax: Axes, layout: Layout, look: Style) -> None:
+    """Write each value below its tick, turned where there is little room."""
+    scaled = layout.scaled()
+    names = [in_words(value) for value in layout.values] or [""]
+    letters = letters_in(size_of(ax)[0] / len(names), look.small)
+    turned: dict[str, Any] = {}
+    if max(map(len, names)) >= letters:
+        names = [shortened(name, TURNED_LETTERS) for name in names]
+        turned = {"rotation": 35, "ha": "right", "rotation_mode": "anchor"}
+    places = 10**scaled if layout.logarithmic else scaled
+    ax.set_xticks(places.tolist(), names, parse_math=False, **turned)
+
+
+def _name_axis(ax: Axes, table: Table, layout: Layout, look: Style) -> None:
+    """Label the axis with the setting along it."""
+    name = "all runs"
+    if layout.axis is not None:
+        setting = table.settings[layout.axis]
+        name = with_unit(setting, table.unit(setting))
+    text = shortened(name, letters_in(size_of(ax)[0], look.label))
+    ax.set_xlabel(text, color=look.ink, fontsize=look.label, parse_math=False)
 
 
 @dataclass(frozen=True)
@@ -159,26 +179,26 @@ class _Drawing:
     look: Style
     confidence: float
 
-    def panels(self, row: Sequence[Axes], estimate: Estimate) -> None:
-        """Draw an estimate into its panels, which share their vertical limits."""
+    def panel(self, ax: Axes, estimate: Estimate) -> None:
+        """Draw an estimate into its panel."""
         points, spans = self.table.points(), [np.empty(0)]
-        for ax, (_, lines) in zip(row, self.layout.columns, strict=True):
-            for name, line in lines.items():
-                places = np.array([self.layout.place(point, name) for point in line])
-                runs = [estimate.values(points[point]) for point in line]
-                if not estimate.share:
-                    spans += [self._dots(ax, places, runs, self._entry(name))]
-                spans += [self._means(ax, places, runs, self._entry(name), estimate)]
+        for name, line in self.layout.lines.items():
+            places = np.array([self.layout.place(point, name) for point in line])
+            runs = [estimate.values(points[point]) for point in line]
+            if not estimate.share:
+                spans += [self._dots(ax, places, runs, self._entry(name))]
+            spans += [self._means(ax, places, runs, self._entry(name), estimate)]
         seen = np.concatenate(spans)
         seen = seen[np.isfinite(seen)]
-        for ax in row:
-            if estimate.share:
-                scale_to_100(ax, self.look)
-            else:
-                set_span(ax, seen.min(initial=np.inf), seen.max(initial=-np.inf))
-            if not len(seen):
-                ax.set_yticks([])
-                say(ax, "nothing was measured", self.look)
+        if estimate.share:
+            ax.set_ylim(-6, 106)
+            few = size_of(ax)[1] < 5 * 2.4 * self.look.small
+            ax.set_yticks([0, 50, 100] if few else [0, 25, 50, 75, 100])
+        else:
+            set_span(ax, seen.min(initial=np.inf), seen.max(initial=-np.inf))
+        if not len(seen):
+            ax.set_yticks([])
+            say(ax, "nothing was measured", self.look)
 
     def _dots(self, ax: Axes, places: Float, runs: Sequence[Float], entry: Entry) -> Float:
         """Draw each run as a dot, and return the runs' values."""
@@ -221,7 +241,7 @@ class _Drawing:
 
     def _entry(self, name: str) -> Entry:
         """Return a line's colour, line style and marker, each of which identifies it."""
-        index, look = self.layout.lines.index(name), self.look
+        index, look = [*self.layout.lines].index(name), self.look
         color, dash = look.curve(index)
         if not look.greys:
             dash = DASHES[index % len(DASHES)]
@@ -229,7 +249,7 @@ class _Drawing:
 
     def entries(self, above: Axes, shown: Sequence[Estimate]) -> list[Entry]:
         """Return the entries of the legend: several lines, and the meaning of hollow markers."""
-        look, lines = self.look, self.layout.lines
+        look, lines = self.look, [*self.layout.lines]
         letters = letters_in(LEGEND * above.figure.bbox.width * 72 / above.figure.dpi, look.small)
         entries = [self._entry(name) for name in (lines if len(lines) > 1 else ())]
         entries = [each._replace(name=shortened(each.name, letters)) for each in entries]

@@ -1,10 +1,9 @@
-"""The layout of a study's figure: which setting is the axis, which make lines, which panels."""
+"""The layout of a study's figure: which setting is the axis, and which make lines."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import defaultdict
 from dataclasses import dataclass
-from math import prod
 from typing import Any
 
 import numpy as np
@@ -16,14 +15,12 @@ from mars2d.study.text import Point, assigned
 
 Float = NDArray[np.float64]
 
-MAX_LINES, MAX_COLUMNS = 8, 6
-"""How many lines a panel may have, and how many panels may stand side by side."""
+MAX_LINES = 8
+"""How many lines a panel may have."""
 
 DODGE, MAX_SPREAD = 0.024, 0.5
 """How far lines are moved apart at the same value, so that no interval covers another: the distance
 of two as a share of the axis, and that of all, at most, as a share of the gap between values."""
-
-Line = tuple[Point, ...]
 
 
 @dataclass(frozen=True)
@@ -31,17 +28,12 @@ class Layout:
     """The places of points in the figure of a study.
 
     axis: the place in a point of the setting along the axis, or None if none varies. values: those
-    of that setting. columns: panels side by side, each a title and its lines by name.
+    of that setting. lines: their points, by their names.
     """
 
     axis: int | None
     values: tuple[Any, ...]
-    columns: tuple[tuple[str, dict[str, Line]], ...]
-
-    @property
-    def lines(self) -> tuple[str, ...]:
-        """The names of all lines, each once."""
-        return tuple(dict.fromkeys(name for _, lines in self.columns for name in lines))
+    lines: dict[str, tuple[Point, ...]]
 
     @property
     def numeric(self) -> bool:
@@ -71,7 +63,7 @@ class Layout:
         k = self.values.index(point[self.axis]) if self.axis is not None else 0
         gap = float(np.diff(np.sort(scaled)).min()) if len(scaled) > 1 else 1.0
         dodge = min(MAX_SPREAD * gap / count, DODGE * (float(np.ptp(scaled)) or 5.0))
-        moved = scaled[k] + (self.lines.index(line) - (count - 1) / 2) * dodge
+        moved = scaled[k] + ([*self.lines].index(line) - (count - 1) / 2) * dodge
         return float(10**moved if self.logarithmic else moved)
 
     def limits(self) -> tuple[float, float]:
@@ -97,9 +89,6 @@ def layout_of(table: Table, x: str | None = None) -> Layout:
     """
     settings, every = table.settings, list(table.points())
 
-    def named(k: int, value: Any) -> str:
-        return assigned(settings[k], value, table.unit(settings[k]))
-
     values = [tuple(dict.fromkeys(column)) for column in zip(*every, strict=True)]
     several = [k for k, found in enumerate(values) if len(found) > 1]
     if x is not None and x not in settings:
@@ -107,39 +96,17 @@ def layout_of(table: Table, x: str | None = None) -> Layout:
     numeric = [k for k in several if all(map(_is_number, values[k]))]
     axis = settings.index(x) if x is not None else next(iter([*numeric, *several]), None)
     others = [k for k in several if k != axis]
-    beside = _beside(others, settings, values)
-    inside = [k for k in others if k != beside]
-    columns = []
-    for value in values[beside] if beside is not None else [None]:
-        lines: dict[str, list[Point]] = {}
-        for point in every:
-            if beside is None or point[beside] == value:
-                name = ", ".join(named(k, point[k]) for k in inside)
-                lines.setdefault(name, []).append(point)
-        title = "" if beside is None else named(beside, value)
-        columns.append((title, {name: tuple(line) for name, line in lines.items()}))
-    return Layout(axis, values[axis] if axis is not None else (), tuple(columns))
-
-
-def _beside(
-    others: Sequence[int], settings: Sequence[str], values: Sequence[Sequence[Any]]
-) -> int | None:
-    """Return the setting in which panels differ, or None if all lines fit into one panel."""
-    if prod(len(values[k]) for k in others) <= MAX_LINES:
-        return None
-    fits = [
-        k
-        for k in others
-        if len(values[k]) <= MAX_COLUMNS
-        and prod(len(values[j]) for j in others if j != k) <= MAX_LINES
-    ]
-    if fits:
-        return min(fits, key=lambda k: len(values[k]))
-    sizes = " x ".join(f"{len(values[k])} of {settings[k]}" for k in others)
-    raise InputError(
-        f"figure: {sizes} are too many lines: at most {MAX_LINES} in a panel and {MAX_COLUMNS} "
-        f"panels side by side; draw fewer values, or another setting along the axis"
-    )
+    lines: dict[str, tuple[Point, ...]] = defaultdict(tuple)
+    for point in every:
+        named = (assigned(settings[k], point[k], table.unit(settings[k])) for k in others)
+        lines[", ".join(named)] += (point,)
+    if len(lines) > MAX_LINES:
+        sizes = " x ".join(f"{len(values[k])} of {settings[k]}" for k in others)
+        raise InputError(
+            f"figure: {sizes} are too many lines: at most {MAX_LINES}; draw fewer values, or "
+            "another setting along the axis"
+        )
+    return Layout(axis, values[axis] if axis is not None else (), lines)
 
 
 def _is_number(value: object) -> bool:

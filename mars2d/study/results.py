@@ -19,17 +19,17 @@ from mars2d.study.table import Result, Table, cell, cells_of, file_header, file_
 
 
 class Results:
-    """The rows of a study by number, and their file, open for writing by this process alone.
+    """The rows of a study by number, and their file, open for writing.
 
     `rows` are at first those of the file, with their numbers in this study. path: of the file, or
-    None. retry: leave out rows with an error. Raises InputError if the file holds another study, if
-    another process writes to it, or if it can't be written.
+    None. retry: leave out rows with an error. Raises InputError if the file holds another study, or
+    if it can't be written.
     """
 
     def __init__(self, study: Study, path: Path | None, *, retry: bool = False) -> None:
         self._study, self._path, self._retry = study, path, retry
         settings, measures = tuple(study.plan.settings), study.measures
-        self._blank = Table(study.title, settings, measures, (), study.units)
+        self._blank = Table(study.title, settings, measures, ())
         self.rows: dict[int, Result] = {}
 
     def __enter__(self) -> Results:
@@ -63,7 +63,7 @@ class Results:
         if self._path is not None:
             if not REPLACED_OPEN:
                 self._file.close()
-            self.table().save(self._path, self._file)
+            self.table().save(self._path)
 
     def _write(self, path: Path, line: bytes) -> None:
         with writing(path):

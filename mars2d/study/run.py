@@ -12,7 +12,7 @@ from typing import Any, cast
 
 from mars2d.core.checks import items_of
 from mars2d.core.description import wrong
-from mars2d.core.errors import InputError, Mars2dError, shown
+from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.files import writing
 from mars2d.core.interrupt import interrupts
 from mars2d.core.progress import progress
@@ -27,12 +27,9 @@ from mars2d.study.study import Study, prepared
 from mars2d.study.table import Result, Table, cells_of
 from mars2d.study.work import Failure, each_done, leave_if_imported_again, worker_count
 
-TRIALS = 5
-"""How many runs, evenly spaced over the study, are made first; if all fail, no others are made."""
-
 
 class StudyFailedError(Mars2dError):
-    """Each run of a study failed, or a measure did so in the first; `table` holds these runs."""
+    """Each run of a study failed; `table` holds them."""
 
     def __init__(self, message: str, table: Table) -> None:
         super().__init__(message)
@@ -55,7 +52,6 @@ def sweep(
     *,
     control: Callable[[Any], Any] | None = None,
     stop_time: float | None = None,
-    units: Mapping[str, str] | None = None,
     out: str | Path | None = None,
     executor: Executor | None = None,
     workers: int | None = None,
@@ -73,7 +69,6 @@ def sweep(
     measures: names of built-in measures or of functions in the experiment's file, or functions of
     the record; by default the end time, the collisions and, in a game, the capture time. control:
     the law of the team, in place of the experiment's. stop_time: seconds, as another setting.
-    units: of settings and measures by name, where they are not known, as those of fields are.
 
     out: a .csv file to which each row is added when its run is done. Runs whose rows it holds are
     not repeated, except, with `retry`, those with an error. executor: any of concurrent.futures, or
@@ -83,14 +78,12 @@ def sweep(
     folder beside `out`, from which a later sweep with `keep` and other measures takes these,
     without a run. show_progress: whether a terminal or a notebook shows a bar.
 
-    A run that fails is a row with its `error`; if all of the first five fail, which are spaced
-    evenly over the study, no others are made. The rows depend neither on the workers nor on the
+    A run that fails is a row with its `error`. The rows depend neither on the workers nor on the
     order in which runs end, and each has the digest of ``mars2d.run`` with the same options.
 
     Raises InputError, before the first run, for anything that can't be run, if the file holds
-    another study, and if a file of the experiment changes meanwhile; `StudyFailedError` if the
-    first five fail, or a measure in the first one; `StudyInterrupted` after Ctrl-C. Both have the
-    rows as their `table`.
+    another study, and if a file of the experiment changes meanwhile; `StudyFailedError` if all
+    runs fail; `StudyInterrupted` after Ctrl-C. Both have the rows as their `table`.
     """
     leave_if_imported_again()
     if executor is None:
@@ -105,7 +98,7 @@ def sweep(
             raise InputError("stop_time is given twice, once among the settings")
         settings = {**(settings or {}), "stop_time": stop_time}
     plan, listed = Plan(settings_of(settings), seeds_of(seeds)), _listed(measures)
-    study = prepared(experiment, plan, listed, control=control, time_limit=time_limit, units=units)
+    study = prepared(experiment, plan, listed, control=control, time_limit=time_limit)
     for trouble in study.troubles[:3]:
         warn(trouble)
     if study.troubles:
@@ -113,15 +106,12 @@ def sweep(
     if keep:
         study = _keeping(study, path)
     with Results(study, path, retry=retry) as results:
-        trials = _trials(study)
-        _refuse_hopeless(study, results, trials)
         try:
-            made = _missing(study, results, trials, executor, workers, show_progress)
+            made = _missing(study, results, executor, workers, show_progress)
             with interrupts() as check, closing(made) as rows:
                 for row in rows:
                     _refuse_changed(study, row)
                     results.add(row)
-                    _refuse_hopeless(study, results, trials)
                     check()
         except KeyboardInterrupt:
             table = results.table()
@@ -129,7 +119,10 @@ def sweep(
             said = f"{len(table)} of {len(plan)} runs {where}"
             raise StudyInterrupted(said, table) from None
         results.put_in_order()
-        return results.table()
+        table = results.table()
+        if len(table.failed) == len(table):
+            raise StudyFailedError(f"all runs failed: {table.failed[0].error}", table)
+        return table
 
 
 def _listed(measures: str | Measure | Iterable[str | Measure]) -> tuple[str | Measure, ...]:
@@ -161,18 +154,16 @@ def _keeping(study: Study, out: Path | None) -> Study:
 def _missing(
     study: Study,
     results: Results,
-    trials: tuple[int, ...],
     executor: Executor | None,
     workers: int | None,
     show_progress: bool,
 ) -> Generator[Result, None, None]:
-    """Do the runs that have no row, the trials first; yield each row as it comes."""
+    """Do the runs that have no row; yield each as it comes."""
     todo = [
         dataclasses.replace(study.blank, row=row, options=options, seed=seed)
         for row, (options, seed) in enumerate(study.plan.runs(), 1)
         if row not in results.rows
     ]
-    todo.sort(key=lambda job: job.row not in trials)
     failed = sum(bool(result.error) for result in results.rows.values())
     done_by = each_done(run_job, todo, executor, workers, study.blank.time_limit)
     with (
@@ -187,33 +178,6 @@ def _missing(
                 yield Result(job.row, job.options, job.seed, nothing, made.error)
             else:
                 yield made
-
-
-def _trials(study: Study) -> tuple[int, ...]:
-    """Return the rows that are made first: the first that can be opened, and `TRIALS` in all."""
-    plan, total = study.plan, len(study.plan)
-    first = next(k for k, point in enumerate(plan.points()) if cells_of(point) in study.codes)
-    spaced = (1 + k * (total - 1) // (TRIALS - 1) for k in range(TRIALS))
-    return (1 + first * len(plan.seeds), *spaced)
-
-
-def _refuse_hopeless(study: Study, results: Results, trials: tuple[int, ...]) -> None:
-    """Raise StudyFailedError if all trials have failed, or a measure in the first of them."""
-    rows = results.rows
-    first = rows.get(trials[0])
-    if first is None:
-        return
-    if first.error and first.digest:
-        what = "the first run can't be measured"
-    elif rows.keys() >= {*trials} and all(result.error for result in rows.values()):
-        what = f"{len(rows)} of {len(rows)} runs failed"
-    else:
-        return
-    left = len(study.plan) - len(rows)
-    others = f", so the other {left} are not made" if left else ""
-    point = [f"{name} = {shown(value)}" for name, value in first.options.items()]
-    where = ", ".join([f"row {first.row}", *point, f"seed {first.seed}"])
-    raise StudyFailedError(f"{what}{others}; {where}: {first.error}", results.table())
 
 
 def _refuse_changed(study: Study, row: Result) -> None:

@@ -21,7 +21,6 @@ from mars2d.study.job import CODE_DIGITS, Job, code_of, measures_of, name_in, pr
 from mars2d.study.measures import Measure
 from mars2d.study.plan import Plan
 from mars2d.study.table import FIRST, LAST, SEED, cells_of
-from mars2d.study.units import checked_units
 
 MAX_PROBES = 100
 """How many points are opened before the first run, at most."""
@@ -34,7 +33,6 @@ class Study:
     title: the experiment's name in the table. blank: a job without row, options and seed.
     troubles: the errors at single points, whose runs will fail. codes: the code of the runs at some
     points, by the points' cells. written: when the files that were read had been written, ns.
-    units: those that were stated.
     """
 
     title: str
@@ -43,7 +41,6 @@ class Study:
     troubles: tuple[str, ...]
     codes: dict[tuple[str, ...], str]
     written: Mapping[Path, int]
-    units: Mapping[str, str]
 
     @property
     def measures(self) -> tuple[str, ...]:
@@ -58,7 +55,6 @@ def prepared(
     *,
     control: Callable[[Any], Any] | None = None,
     time_limit: float | None = None,
-    units: Mapping[str, str] | None = None,
 ) -> Study:
     """Return the study of a plan, after opening its experiment at points that cover all values.
 
@@ -95,9 +91,8 @@ def prepared(
     contest = ["capture_time"] if len(contests_of(first.scenario)) == 1 else []
     chosen = measures or (*contest, "end_time", "collisions")
     measures_of(chosen, first, first.scenario)
-    stated = checked_units(units, [*plan.settings, *map(name_in, chosen)])
     blank = dataclasses.replace(blank, measures=chosen)
-    return Study(title, plan, blank, tuple(troubles), codes, written, stated)
+    return Study(title, plan, blank, tuple(troubles), codes, written)
 
 
 def _check_columns(plan: Plan, measures: tuple[str | Measure, ...]) -> None:

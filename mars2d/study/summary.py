@@ -160,7 +160,6 @@ class Difference:
 
     found: the difference; its count is the number of pairs or, if `paired` is False because no two
     runs have the same seed, of all runs. left_out: pairs of which a run failed or has no number.
-    narrower: the factor by which pairing narrowed the interval; nan if that is unknown.
     """
 
     point: Point
@@ -168,7 +167,6 @@ class Difference:
     found: Interval
     paired: bool
     left_out: int
-    narrower: float
 
 
 def comparison(table: Table, setting: str, confidence: float = 0.95) -> str:
@@ -193,8 +191,7 @@ def comparison(table: Table, setting: str, confidence: float = 0.95) -> str:
             else f"0 ({each.found.count} runs)"
             for each in mine
         )
-        gains = ("-" if isnan(each.narrower) else f"{each.narrower:.1f} times" for each in mine)
-        columns = [[title, *map(_verdict, mine)], ["pairs", *counts], ["narrower", *gains]]
+        columns = [[title, *map(_verdict, mine)], ["pairs", *counts]]
         parts += side_by_side(left, columns)
     parts.append(_comparison_notes(found, confidence))
     return "\n\n".join(parts)
@@ -247,18 +244,13 @@ def _difference(
     seeds = sorted({r.seed for r in results} & {r.seed for r in base})
     if not seeds:
         apart = estimate.apart(estimate.values(results), estimate.values(base), confidence)
-        return Difference(point, estimate, apart, paired=False, left_out=0, narrower=nan)
+        return Difference(point, estimate, apart, paired=False, left_out=0)
     mine, theirs = (estimate.by_seed(runs) for runs in (results, base))
     a = np.array([mine.get(seed, nan) for seed in seeds])
     b = np.array([theirs.get(seed, nan) for seed in seeds])
     found = estimate.difference(a, b, confidence)
-    narrower = nan
-    if found.half_width > 0 and not estimate.share:  # unpaired shares use another method
-        both = np.isfinite(a) & np.isfinite(b)
-        alone = estimate.apart(a[both], b[both], confidence)
-        narrower = alone.half_width / found.half_width
     left_out = len({r.seed for r in (*results, *base)}) - found.count
-    return Difference(point, estimate, found, True, left_out, narrower)
+    return Difference(point, estimate, found, True, left_out)
 
 
 def _verdict(each: Difference) -> str:
@@ -286,8 +278,6 @@ def _comparison_notes(found: Sequence[Difference], confidence: float) -> str:
         one = f"{100 * (1 - (1 - confidence) / m):.4g} %"
         together = f"all hold together with {every} (Bonferroni)"
         notes = [f"Each of the {m} intervals is of {one}: {together}."]
-    if any(each.paired for each in found):
-        notes.append("narrower: how much pairing narrowed the interval, against runs in no pairs.")
     if any(each.left_out for each in found):
         notes.append("left out: pairs of which a run failed or has no number, so that a difference")
         notes.append("is of the others alone: read it beside the share of those with a number.")

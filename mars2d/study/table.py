@@ -8,15 +8,14 @@ from __future__ import annotations
 
 import csv
 import dataclasses
-import html
 import io
 import re
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from math import nan
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +25,7 @@ from mars2d.core.extras import extra
 from mars2d.core.files import atomic_write
 from mars2d.scenario.options import parse_option
 from mars2d.study.measures import UNITS
-from mars2d.study.units import name_and_unit, unit_of_field, with_unit
+from mars2d.study.units import unit_of_field
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -35,9 +34,6 @@ Float = NDArray[np.float64]
 
 FIRST, SEED, LAST = ("row", "experiment"), "seed", ("digest", "code", "error")
 """The columns of every table; the settings stand before the seed, the measures after it."""
-
-SHOWN_ROWS = 20
-"""How many rows of a table a notebook shows."""
 
 FORMULA = re.compile("'*[=+@-]")
 """The beginning of words that a spreadsheet takes for a formula, or that are quoted against it."""
@@ -68,15 +64,13 @@ class Result:
 class Table:
     """The results of a study: its runs in order, each with its settings, seed and measures.
 
-    experiment: the name of the experiment. settings, measures: their names, in order. units: those
-    that were stated, by the names of settings and measures.
+    experiment: the name of the experiment. settings, measures: their names, in order.
     """
 
     experiment: str
     settings: tuple[str, ...]
     measures: tuple[str, ...]
     results: tuple[Result, ...]
-    units: Mapping[str, str] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.results)
@@ -91,9 +85,8 @@ class Table:
         return tuple(result for result in self.results if result.error)
 
     def unit(self, name: str) -> str:
-        """Return the unit of a setting or measure: as stated, of its field, or built in; or ""."""
-        known = unit_of_field(name) if name in self.settings else UNITS.get(name, "")
-        return self.units.get(name, known)
+        """Return the unit of a setting that is a field, or of a built-in measure; or ""."""
+        return unit_of_field(name) if name in self.settings else UNITS.get(name, "")
 
     def points(self) -> dict[tuple[Any, ...], tuple[Result, ...]]:
         """Return the runs of each point, in order; a point is the tuple of all settings' values.
@@ -127,17 +120,16 @@ class Table:
                 frame[name] = frame[name].astype(float)
         return frame
 
-    def save(self, path: str | Path, held: BinaryIO | None = None) -> Path:
+    def save(self, path: str | Path) -> Path:
         """Write the table as a .csv file, which `load` reads, and return its path.
 
-        held: the file that is replaced, where the caller holds it open. Raises InputError if the
-        table can't be written.
+        Raises InputError if the table can't be written.
         """
         target = Path(path)
         if target.suffix.lower() != ".csv":
             raise InputError(f"{target}: expected a name that ends in .csv")
         lines = [file_header(self), *(file_line(self, result) for result in self.results)]
-        with atomic_write(target, held) as file:
+        with atomic_write(target) as file:
             file.write(b"".join(lines))
         return target
 
@@ -154,17 +146,6 @@ class Table:
             raise InputError(f"{source}: can't be read: {error.strerror or error}") from error
         return parse_table(data[: data.rfind(b"\n") + 1], source)
 
-    def _repr_html_(self) -> str:
-        """Return the first rows as a table, for a notebook."""
-        columns = ["row", *self.settings, SEED, *self.measures, *(["error"] if self.failed else [])]
-        heads = "".join(f"<th>{_shown(with_unit(name, self.unit(name)))}</th>" for name in columns)
-        rows = map(_columns_of, self.results[:SHOWN_ROWS])
-        cells = ["".join(f"<td>{_shown(row.get(name))}</td>" for name in columns) for row in rows]
-        lines = "".join(f"<tr>{line}</tr>" for line in [heads, *cells])
-        left = len(self) - SHOWN_ROWS
-        more = f"<p>and {counted(left, 'row')} more</p>" if left > 0 else ""
-        return f"<p>{html.escape(repr(self)[1:-1])}</p><table>{lines}</table>{more}"
-
 
 def _columns_of(result: Result) -> dict[str, Any]:
     """Return the values of a run by the names of their columns."""
@@ -172,19 +153,12 @@ def _columns_of(result: Result) -> dict[str, Any]:
     return {**result.options, **result.measures, **own}
 
 
-def _shown(value: Any) -> str:
-    """Return a value as HTML."""
-    text = f"{value:.6g}" if isinstance(value, float) else "" if value is None else str(value)
-    return html.escape(text)
-
-
 # -- writing files ---------------------------------------------------------------------------------
 
 
 def file_header(table: Table) -> bytes:
     """Return the first line of a table's file."""
-    columns = [*FIRST, *table.settings, SEED, *table.measures, *LAST]
-    return _line(with_unit(name, table.units.get(name, "")) for name in columns)
+    return _line([*FIRST, *table.settings, SEED, *table.measures, *LAST])
 
 
 def file_line(table: Table, result: Result) -> bytes:
@@ -204,12 +178,6 @@ def _line(cells: Iterable[str]) -> bytes:
 
 
 # -- reading files ---------------------------------------------------------------------------------
-
-
-def is_table(path: Path) -> bool:
-    """Return whether a file begins like the table of a study."""
-    with path.open("rb") as file:
-        return file.read(200).decode("utf-8-sig", "replace").startswith(",".join(FIRST) + ",")
 
 
 def parse_table(data: bytes, path: Path) -> Table:
@@ -238,9 +206,8 @@ def _blank(header: list[str]) -> Table:
         expected = f"{', '.join(FIRST)}, settings, seed, measures, {', '.join(LAST)}"
         found = f"; it begins with {shown(','.join(header))}" if header else "; it is empty"
         raise InputError(f"is no table of a study: expected columns {expected}{found}")
-    names, units = zip(*map(name_and_unit, header), strict=True)
-    at, stated = header.index(SEED), {k: unit for k, unit in zip(names, units, strict=True) if unit}
-    return Table("", names[2:at], names[at + 1 : -3], (), stated)
+    at = header.index(SEED)
+    return Table("", tuple(header[2:at]), tuple(header[at + 1 : -3]), ())
 
 
 def _result(cells: list[str], blank: Table, width: int) -> Result:

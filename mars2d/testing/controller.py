@@ -12,7 +12,6 @@ from mars2d.core.deadline import Deadline
 from mars2d.core.errors import InputError
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
-from mars2d.testing.finding import Finding
 from mars2d.testing.subject import Subject
 from mars2d.testing.trial import ControlLaw, small_world
 
@@ -29,8 +28,8 @@ def check_controller(
     control: ControlLaw | None = None,
     team: bool | None = None,
     deadline: Deadline | None = None,
-) -> tuple[Finding, ...]:
-    """Try a control law; return hints, and raise CheckError, which lists all that is wrong with it.
+) -> None:
+    """Try a control law; raise CheckError, which lists all that is wrong with it.
 
     For 50 control steps, the law drives the robots of a small world, which carry `sensors`, or
     those robots of a `scenario` that have it as their controller. sees: as ``Robot.sees`` or
@@ -39,7 +38,6 @@ def check_controller(
     limit of each control step.
 
     >>> check_controller(lambda robot: (0.2, 0.1 * robot.rng.normal()))
-    ()
     """
     of_team = is_of_a_team(law) if team is None else team
     subject = Subject("law", law, "world.rng" if of_team else "robot.rng", KEEP)
@@ -47,7 +45,7 @@ def check_controller(
         checks.function(subject.name, law, "the world" if of_team else "the robot")
     except InputError as error:
         subject.wrong(str(error))
-        return subject.hints()
+        subject.conclude()
     own, placed = ["command "], scenario
     if of_team:
         placed, control = scenario or small_world(sensors, addons, None).replace(sees=sees), law
@@ -62,7 +60,7 @@ def check_controller(
         placed = scenario.replace(robots=robots)
         own = [f"command {robot.name}" for robot in robots if robot.controller is law]
     subject.check_runs(lambda: (placed, control), deadline, small=scenario is None, own=tuple(own))
-    return subject.hints()
+    subject.conclude()
 
 
 def is_of_a_team(law: ControlLaw) -> bool:

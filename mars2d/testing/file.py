@@ -11,7 +11,6 @@ from types import ModuleType
 from typing import Any
 
 from mars2d.addons.base import Addon
-from mars2d.bodies.drives.base import Drive
 from mars2d.core.deadline import Deadline
 from mars2d.core.description import Description
 from mars2d.core.errors import InputError
@@ -20,12 +19,10 @@ from mars2d.scenario.experiment import Experiment
 from mars2d.sensors.base import Sensor
 from mars2d.testing.addon import check_addon
 from mars2d.testing.controller import check_controller, code_of, is_of_a_team
-from mars2d.testing.drive import check_drive
-from mars2d.testing.finding import CheckError, Finding
 from mars2d.testing.sensor import check_sensor
+from mars2d.testing.subject import CheckError, Finding
 
-FAMILIES: tuple[tuple[str, type[Description], str, Callable[..., tuple[Finding, ...]]], ...] = (
-    ("drive", Drive, "twist", check_drive),
+FAMILIES: tuple[tuple[str, type[Description], str, Callable[..., None]], ...] = (
     ("sensor", Sensor, "read", check_sensor),
     ("add-on", Addon, "", check_addon),
 )
@@ -44,21 +41,22 @@ class Case:
 
     name: str
     where: str
-    check: Callable[[], tuple[Finding, ...]] = tuple
+    check: Callable[[], None] = lambda: None
     untried: str = ""
 
     def findings(self) -> tuple[Finding, ...]:
-        """Try it, and return what is wrong, and hints."""
+        """Try it, and return what is wrong."""
         try:
-            return self.check()
+            self.check()
         except CheckError as error:
             return error.findings
+        return ()
 
 
 def trials(
     module: ModuleType, experiment: Experiment | None, deadline: Deadline | None = None
 ) -> Iterator[Case]:
-    """Yield everything in a file that can be tried: drives, sensors and add-ons, then laws.
+    """Yield everything in a file that can be tried: sensors and add-ons, then laws.
 
     experiment: the file's own, or None if it has no scenario.
     """
@@ -90,21 +88,18 @@ def _of_class(
     family: str,
     kind: type[Description],
     experiment: Experiment | None,
-    check: Callable[..., tuple[Finding, ...]],
+    check: Callable[..., None],
 ) -> Iterator[Case]:
     """Yield the trials of the objects of a class in the scenario, or of one with its defaults."""
     name, used, inside = f"{family} {kind.__name__}", {}, check
     if experiment is not None:
         scenario = experiment.scenario
-        parts = [part for robot in scenario.robots for part in (robot.drive, *robot.sensors)]
+        parts = [sensor for robot in scenario.robots for sensor in robot.sensors]
         used = {repr(each): each for each in (*parts, *scenario.addons) if type(each) is kind}
         inside = partial(check, scenario=scenario, control=experiment.control)
     for part in list(used.values())[:MAX_OBJECTS]:
         title = name if len(used) == 1 else f"{family} {part!r}"
-        if family == "drive":
-            yield Case(title, "in a small world", partial(check, part))
-        else:
-            yield Case(title, "in its scenario", partial(inside, part))
+        yield Case(title, "in its scenario", partial(inside, part))
     if used:
         return
     try:

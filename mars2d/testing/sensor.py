@@ -15,9 +15,9 @@ from mars2d.core.deadline import Deadline
 from mars2d.core.errors import shown
 from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene
+from mars2d.core.usercode import called
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
-from mars2d.testing.finding import Finding
 from mars2d.testing.subject import KEEP, Subject
 from mars2d.testing.trial import ControlLaw, Placed, looker, small_world
 from mars2d.world.world import World
@@ -36,17 +36,16 @@ def check_sensor(
     scenario: Scenario | None = None,
     control: ControlLaw | None = None,
     deadline: Deadline | None = None,
-) -> tuple[Finding, ...]:
-    """Try a sensor; return hints, and raise CheckError, which lists all that is wrong with it.
+) -> None:
+    """Try a sensor; raise CheckError, which lists all that is wrong with it.
 
     The sensor runs for 50 control steps on the robots of a small world with walls, an obstacle and
     a box, or on those of a `scenario`, whose team has the law `control`. The check reports invalid
-    readings, random numbers from shared generators, changes to the world, and readings that differ
-    with the same seed. deadline: the limit of each control step.
+    readings, random numbers from shared generators, and readings that differ with the same seed.
+    deadline: the limit of each control step.
 
     >>> from mars2d.sensors import Proximity
     >>> check_sensor(Proximity(range=1.0))
-    ()
     """
     checks.instance(Sensor, "Proximity(range=1)")("check_sensor(sensor)", sensor)
     subject = Subject("sensor", sensor, "rng, the sensor's own stream", KEEP)
@@ -63,7 +62,7 @@ def check_sensor(
             looker=looker("on_step", partial(_look, sensor, subject)),
             own=(f"sensor {sensor.key} ",),
         )
-    return subject.hints()
+    subject.conclude()
 
 
 def _placed(sensor: Sensor, scenario: Scenario | None, control: ControlLaw | None) -> Placed:
@@ -84,18 +83,14 @@ def _placed(sensor: Sensor, scenario: Scenario | None, control: ControlLaw | Non
 def _look(sensor: Sensor, subject: Subject, world: World) -> None:
     """Call `read` just before the world does, and draw as figures do, by the frozen sensor."""
     devices = [d for d in world.simulation.sensing.devices if type(d.described) is type(sensor)]
-    with subject.looking(sensor, "read", world):
-        for device in devices:
+    for device in devices:
+        with called(f"{subject.name}.read", sensor.read):
             reading = device.sensor.read(device.view, device.world, copy.deepcopy(device.rng))
-            _check_reading(sensor, subject, reading)
-    if type(sensor).draw is not Sensor.draw:
-        scene = Scene()
-        with subject.looking(sensor, "draw", world):
-            for device in devices:
-                i, reading = device.robot, device.reading
-                if reading is not None:
-                    sensor.draw(scene, world.pose[:, i], reading, world.scenario.colors[i])
-        subject.check_finite(scene, "draw")
+        _check_reading(sensor, subject, reading)
+        i, reading = device.robot, device.reading
+        if reading is not None:
+            with called(f"{subject.name}.draw", sensor.draw):
+                sensor.draw(Scene(), world.pose[:, i], reading, world.scenario.colors[i])
 
 
 def _check_reading(sensor: Sensor, subject: Subject, reading: Any) -> None:

@@ -169,24 +169,15 @@ def contents(value: Any) -> bytes:
         return re.sub(r" at 0x\w+", "", repr(value)).encode()
 
 
-def changed(one: dict[str, bytes], other: dict[str, bytes], besides: str = "") -> str:
-    """Return the name of the first difference of two states, or "".
-
-    besides: the key of an add-on whose attributes may differ, but not its random stream.
-    """
-    own = f"add-on {besides}."
-    found = (name for name in one | other if one.get(name) != other.get(name))
-    return next((name for name in found if name == f"{own}rng" or not name.startswith(own)), "")
-
-
-def difference(one: Run, other: Run, besides: str = "") -> tuple[int, str] | None:
+def difference(one: Run, other: Run) -> tuple[int, str] | None:
     """Return the first control step at which two runs differ, and in what, or None.
 
-    besides: as in `changed`. An early end counts as far as it goes.
+    An early end counts as far as it goes.
     """
-    pairs = enumerate(zip(one.rows, other.rows, strict=False))
-    found = ((step, changed(mine, its, besides)) for step, (mine, its) in pairs)
-    return next(((step, what) for step, what in found if what), None)
+    for step, (mine, its) in enumerate(zip(one.rows, other.rows, strict=False)):
+        if mine != its:
+            return step, next(name for name in mine | its if mine.get(name) != its.get(name))
+    return None
 
 
 @contextmanager

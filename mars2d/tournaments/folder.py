@@ -58,7 +58,7 @@ class Folder:
     InputError for a folder that holds anything else, or can't be written.
     """
 
-    def __init__(self, path: Path, schedule: Schedule, replays: bool) -> None:
+    def __init__(self, path: Path, schedule: Schedule) -> None:
         self._path, self._head = path / PLAYED, _head(schedule)
         self._prints = _prints(schedule)
         if path.exists() and not path.is_dir():
@@ -67,8 +67,7 @@ class Folder:
             raise InputError(f"{path}: there is no folder {path.parent}")
         with writing(path):
             path.mkdir(exist_ok=True)
-        found = _known(path, schedule, self._prints)
-        self.before = tuple(p for p in found if p.replay or not (replays and p.steps))
+        self.before = _known(path, schedule, self._prints)
 
     def keep(self, played: Played) -> None:
         """Write a match that is done; its hash identifies it."""

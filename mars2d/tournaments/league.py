@@ -13,19 +13,15 @@ from math import inf
 from operator import itemgetter
 from pathlib import Path
 from statistics import fmean
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from mars2d.core.errors import InputError, one_line
-from mars2d.core.extras import extra
 from mars2d.core.files import atomic_write
 from mars2d.study.statistics import proportion
 from mars2d.study.table import cell, word_cell
 from mars2d.tournaments.match import Played
 from mars2d.tournaments.rating import MIDDLE, ratings
 from mars2d.tournaments.schedule import Schedule
-
-if TYPE_CHECKING:
-    from pandas import DataFrame
 
 UNPROTECTED = (
     "not protected on this system: a law that means to could have harmed other laws and files"
@@ -175,13 +171,6 @@ class Tournament:
         playing = {played.match.laws[role] for played in self.matches for role in roles}
         return [law for law in dict.fromkeys(s.law for s in self.standings) if law in playing]
 
-    def rounds(self) -> dict[str, list[Played]]:
-        """Return the matches of each round, by the settings in which rounds differ, as text."""
-        rounds: dict[str, list[Played]] = {}
-        for played in self.matches:
-            rounds.setdefault(self.schedule.round_of(played.match), []).append(played)
-        return rounds
-
     def head_to_head(self) -> dict[str, dict[str, list[float]]]:
         """Return the points that each law took from each other, match by match.
 
@@ -232,11 +221,10 @@ class Tournament:
         return tuple(_grade(group, groups[group], elo[group][0]) for group in sorted(groups))
 
     def _match(self, played: Played) -> dict[str, Any]:
-        """Return a match's row: its number, settings, seed, laws and result."""
+        """Return a match's row: its number, seed, laws and result."""
         roles, match = self.schedule.roles, played.match
         return {
             "match": match.number,
-            **{name: match.options.get(name) for name in self.schedule.settings},
             "seed": match.seed,
             **{role: match.laws[role] for role in roles},
             "winner": played.winner,
@@ -247,13 +235,6 @@ class Tournament:
             "message": played.message,
             "digest": played.digest,
         }
-
-    def to_frame(self, table: str = "matches") -> DataFrame:
-        """Return a table as one of pandas, see `table`."""
-        rows = self.table(table)
-        with extra("data", "tables need pandas"):
-            import pandas as pd
-        return pd.DataFrame(rows)
 
     def save_csv(self, path: str | Path, table: str = "matches") -> Path:
         """Write a table, see `table`, and return the path."""

@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mars2d.core.errors import counted, one_line
+from mars2d.core.errors import one_line
 from mars2d.core.terminal import aligned
 from mars2d.tournaments.league import (
     UNPROTECTED,
     Tournament,
-    league,
     league_tables,
     matches_of,
 )
-from mars2d.tournaments.match import Played
 
 MAX_WIDTH = 100
-"""The greatest width of the tables of pairings and rounds; wider ones are only on the page."""
+"""The greatest width of the table of pairings; a wider one is only on the page."""
 
 MAX_FAULT_LENGTH = 400
 """The greatest length of the text about a group's faults."""
@@ -28,7 +26,7 @@ def league_text(tournament: Tournament) -> str:
     for standings, rows in league_tables(tournament):
         header = ["", standings[0].role or "law", *[*rows[0]][2:]]
         told.append("\n".join(aligned([header, *([*row.values()] for row in rows)], left=2)))
-    told += [part(tournament) for part in (_pairings, _rounds, _faults, _same_matches)]
+    told += [part(tournament) for part in (_pairings, _faults)]
     told.append(f"Isolation: {UNPROTECTED}" if tournament.unprotected else "")
     return "\n\n".join(filter(None, told))
 
@@ -57,20 +55,6 @@ def _pairings(tournament: Tournament) -> str:
     return f"{title}\n{table}" if table else ""
 
 
-def _rounds(tournament: Tournament) -> str:
-    """Return each law's points in each round, if there are several rounds."""
-    rounds = tournament.rounds()
-    if len(rounds) < 2:
-        return ""
-    tables = [league(found, tournament.schedule.roles) for found in rounds.values()]
-    points = [{(each.role, each.law): f"{each.points:g}" for each in table} for table in tables]
-    rows = [
-        (each.law, *(table.get((each.role, each.law), "-") for table in points))
-        for each in tournament.standings
-    ]
-    return _fitting([("points with", *rounds), *rows])
-
-
 def _faults(tournament: Tournament) -> str:
     """Return a line for each group that has forfeited matches, and one if some have no result."""
     lines = [
@@ -82,20 +66,3 @@ def _faults(tournament: Tournament) -> str:
         first = f"first match {failed[0].match.number}: {failed[0].error}"
         lines.append(f"{matches_of(len(failed))} without a result, {first}")
     return "\n".join(one_line(line, MAX_FAULT_LENGTH) for line in lines)
-
-
-def _same_matches(tournament: Tournament) -> str:
-    """Return a note on pairings that played the same match with every seed."""
-    pairings: dict[tuple[object, ...], list[Played]] = {}
-    for played in tournament.matches:
-        if played.digest and not played.verdicts:
-            match = played.match
-            key = (*match.laws.values(), *map(repr, match.options.values()))
-            pairings.setdefault(key, []).append(played)
-    several = [found for found in pairings.values() if len(found) > 1]
-    same = [found for found in several if len({played.digest for played in found}) == 1]
-    if not same:
-        return ""
-    which = "each pairing" if len(same) == len(several) else f"{len(same)} pairings"
-    seeds = counted(len(same[0]), "seed")
-    return f"The {seeds} gave the same match in {which}: nothing in it is random."

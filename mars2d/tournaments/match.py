@@ -15,7 +15,6 @@ from mars2d.scenario.roles import contest_of, roles_of
 from mars2d.tournaments.isolation import run_isolated
 from mars2d.tournaments.isolation.jail import is_protected
 from mars2d.tournaments.isolation.limits import OUT_OF_TIME, Limits, Verdict
-from mars2d.world.record import Record
 from mars2d.world.verify import rerun
 
 TIME_OUTS = 2
@@ -31,8 +30,8 @@ LATE = Verdict(
 class Match:
     """A match to be played: the experiment, its options and seed, and each role's law.
 
-    number: in the tournament, from 1. experiment: a file, or the name of an example. options: those
-    of its round, as for `mars2d.run`. laws: the name of each role's law, as tables show it. files:
+    number: in the tournament, from 1. experiment: a file, or the name of an example. options: as
+    for `mars2d.run`. laws: the name of each role's law, as tables show it. files:
     the paths of these laws; a role without one is played by the experiment's own law. code: what
     these files held when the match was planned, and so what is played; see `law_code`.
     """
@@ -112,19 +111,12 @@ def settled(planned: Iterable[Match], played: Iterable[Played]) -> list[Played]:
     return results
 
 
-def play(match: Match, limits: Limits, replays: bool) -> Played:
+def play(match: Match, limits: Limits, replays: bool = True) -> Played:
     """Play a match, with each law in a process of its own, and return its result.
 
-    replays: whether to keep data for a page. Raises InputError if the experiment itself fails,
-    which is not a law's fault.
-    """
-    return replayed(match, limits, replays)[0]
-
-
-def replayed(match: Match, limits: Limits, replays: bool = False) -> tuple[Played, Record]:
-    """Play a match, and return its result and record. Raises InputError as `play` does.
-
-    The match is run again from its recorded commands: if that leads elsewhere, it has no result.
+    replays: whether to keep data for a page. The match is run again from its recorded commands: if
+    that leads elsewhere, it has no result. Raises InputError if the experiment itself fails, which
+    is not a law's fault.
     """
     from mars2d.output.pages.replay import replay_data
 
@@ -135,7 +127,7 @@ def replayed(match: Match, limits: Limits, replays: bool = False) -> tuple[Playe
     record, verdicts, output = run_isolated(experiment, laws, limits, match.code)
     if len(record) and (departure := rerun(record)):
         error = f"run again from its recorded commands, it departs at {departure}"
-        return Played.without_result(match, error), record
+        return Played.without_result(match, error)
     outcome = contest.outcome(record) if len(record) else Outcome((), {}, None)
     result: dict[str, Any] = {
         "score": {role: float(score) for role, score in outcome.score.items()},
@@ -146,7 +138,7 @@ def replayed(match: Match, limits: Limits, replays: bool = False) -> tuple[Playe
         "protected": is_protected(),
     }
     if verdicts:
-        return Played.forfeited(match, verdicts, teams, **result), record
+        return Played.forfeited(match, verdicts, teams, **result)
     payoff = None if isnan(outcome.payoff) else outcome.payoff
     message = record.over_message
-    return Played(match, outcome.winner, payoff=payoff, message=message, **result), record
+    return Played(match, outcome.winner, payoff=payoff, message=message, **result)

@@ -14,15 +14,14 @@ from typing import Any
 
 from mars2d.core.description import wrong
 from mars2d.core.errors import InputError, likely, nearest, shown
-from mars2d.scenario.examples import examples
+from mars2d.scenario.examples import examples, experiment_name
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.policy import SUFFIX as POLICY
 from mars2d.scenario.roles import contest_of, roles_of
-from mars2d.study.plan import MAX_RUNS, Plan, seeds_of, settings_of
+from mars2d.study.plan import MAX_RUNS, seeds_of
 from mars2d.tournaments.isolation.limits import LIMITS, Limits
 from mars2d.tournaments.isolation.source import law_code
 from mars2d.tournaments.match import Match
-from mars2d.tournaments.rules import Rules
 
 Files = str | Path | Sequence[str | Path]
 """One or several files of laws, folders or patterns."""
@@ -38,24 +37,20 @@ EXPECTED = "expected files of laws (.py or .onnx), a folder of them, or a patter
 
 @dataclass(frozen=True)
 class Schedule:
-    """All matches of a tournament, in order: round by round, pairing by pairing, seed by seed.
+    """All matches of a tournament, in order: pairing by pairing, seed by seed.
 
-    experiment: a file, or the name of an example. roles: those of its contest, in order. settings:
-    the options in which rounds differ. limits: of each law. files: those that were read for the
-    experiment itself. rules: of the game, in the first round.
+    experiment: a file, or the name of an example. roles: those of its contest, in order. limits: of
+    each law. files: those that were read for the experiment itself. title: of its scenario. colors:
+    those of each role's robots, each once.
     """
 
     experiment: str
     roles: tuple[str, ...]
-    settings: tuple[str, ...]
     limits: Limits
     matches: tuple[Match, ...] = field(repr=False)
     files: frozenset[Path] = field(repr=False)
-    rules: Rules = field(repr=False)
-
-    def round_of(self, match: Match) -> str:
-        """Return the name of a match's round: the settings in which rounds differ."""
-        return ", ".join(f"{name} = {match.options.get(name)}" for name in self.settings)
+    title: str
+    colors: Mapping[str, tuple[str, ...]] = field(repr=False)
 
 
 def schedule(
@@ -65,7 +60,7 @@ def schedule(
     *,
     seeds: int | Iterable[int] = 10,
     first_seed: int = 0,
-    settings: Mapping[str, Any] | None = None,
+    options: Mapping[str, Any] | None = None,
     stop_time: float | None = None,
     limits: Limits = LIMITS,
 ) -> Schedule:
@@ -76,14 +71,10 @@ def schedule(
     """
     if not isinstance(experiment, (str, Path)):
         raise wrong("experiment", experiment, "a file, or the name of an example")
-    plan = Plan(settings_of(settings), seeds_of(seeds, first_seed))
-    always = {} if stop_time is None else {"stop_time": stop_time}
-    rounds = [{**point, **always} for point in plan.points()]
-    opened, names = _opened(experiment, rounds[0], plan.seeds[0])
-    for probe in plan.probes():  # before any match, not after many
-        if _opened(experiment, probe | always, plan.seeds[0])[1] != names:
-            raise InputError(f"{experiment}: each round needs the roles {' and '.join(names)}")
-    _check_names(plan.settings, names)
+    seeds = seeds_of(seeds, first_seed)
+    options = {**(options or {}), **({} if stop_time is None else {"stop_time": stop_time})}
+    opened, names = _opened(experiment, options, seeds[0])
+    _check_names(options, names)
     beside = Path(opened.source.path or "").parent
     taking_part = entrants(names, roles or {}, players or (), beside)
     pairings = [
@@ -93,7 +84,7 @@ def schedule(
     ]
     if not pairings:
         raise InputError("there is nobody to play against: a law does not play itself")
-    count = len(rounds) * len(pairings) * len(plan.seeds)
+    count = len(pairings) * len(seeds)
     if count > MAX_RUNS:
         raise InputError(f"these are {count:,} matches: {MAX_RUNS:,} at most")
     named = str(experiment) if str(experiment) in examples() else str(opened.source.path)
@@ -109,18 +100,19 @@ def schedule(
             files=files,
             code={role: code[law] for role, law in files.items()},
         )
-        for number, (options, files, seed) in enumerate(
-            itertools.product(rounds, pairings, plan.seeds), 1
-        )
+        for number, (files, seed) in enumerate(itertools.product(pairings, seeds), 1)
     )
     return Schedule(
         experiment=named,
         roles=names,
-        settings=tuple(plan.settings),
         limits=limits,
         matches=matches,
         files=frozenset(opened.source.written),
-        rules=Rules.of(opened, limits),
+        title=opened.scenario.title or experiment_name(Path(named)),
+        colors={
+            role: tuple(dict.fromkeys(opened.scenario.colors[robot] for robot in team))
+            for role, team in roles_of(opened.scenario).items()
+        },
     )
 
 
@@ -164,14 +156,14 @@ def check_meant(role: str, files: Iterable[Path], roles: Sequence[str]) -> None:
             )
 
 
-def _check_names(settings: Iterable[str], roles: Sequence[str]) -> None:
-    """Refuse settings whose column would be twice in the table of matches."""
-    for name in settings:
+def _check_names(options: Iterable[str], roles: Sequence[str]) -> None:
+    """Refuse options that differ from match to match."""
+    for name in options:
         if name == "seed":
-            raise InputError("setting 'seed': say how many there are, with --seeds N")
+            raise InputError("option 'seed': say how many there are, with --seeds N")
         if name in roles:
             raise InputError(
-                f"setting {name!r}: this is a role; name its laws by --role {name}=FILES"
+                f"option {name!r}: this is a role; name its laws by --role {name}=FILES"
             )
 
 

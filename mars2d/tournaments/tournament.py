@@ -38,12 +38,11 @@ def tournament(
     *,
     seeds: int | Sequence[int] = 10,
     first_seed: int = 0,
-    settings: Mapping[str, Any] | None = None,
+    options: Mapping[str, Any] | None = None,
     stop_time: float | None = None,
     limits: Limits = LIMITS,
     executor: Executor | None = None,
     workers: int | None = None,
-    replays: bool = True,
     out: str | Path | None = None,
     show_progress: bool = True,
 ) -> Tournament:
@@ -53,10 +52,9 @@ def tournament(
     the files of each role's laws, also folders or patterns, such as {"pursuer": "pursuers/*.py"}.
     players: files of laws that play every role; no law plays itself. seeds: how many matches each
     pairing plays, from first_seed on, or a list of seeds, which are the same for all pairings.
-    settings: options of the experiment; lists of values make rounds, in each of which every pairing
-    plays. stop_time: seconds, in place of the scenario's. limits: those of each law; a law that
-    exceeds them or raises forfeits the match. executor, workers: see `mars2d.sweep`. replays:
-    whether the page has replays. out: a folder to which matches are written as they are played, and
+    options: of the experiment, as for `mars2d.run`. stop_time: seconds, in place of the scenario's.
+    limits: those of each law; a law that exceeds them or raises forfeits the match. executor,
+    workers: see `mars2d.sweep`. out: a folder to which matches are written as they are played, and
     at the end the tables and the page; if interrupted, the same call goes on. show_progress:
     whether a terminal shows a bar.
 
@@ -70,7 +68,7 @@ def tournament(
         players,
         seeds=seeds,
         first_seed=first_seed,
-        settings=settings,
+        options=options,
         stop_time=stop_time,
         limits=limits,
     )
@@ -79,7 +77,6 @@ def tournament(
         None if out is None else Path(out),
         executor=executor,
         workers=workers,
-        replays=replays,
         show_progress=show_progress,
     )
 
@@ -90,7 +87,6 @@ def play_schedule(
     *,
     executor: Executor | None = None,
     workers: int | None = None,
-    replays: bool = True,
     show_progress: bool = True,
 ) -> Tournament:
     """Play the matches of a schedule that its folder `out` does not hold; save and return all.
@@ -100,8 +96,8 @@ def play_schedule(
     """
     if executor is None:
         worker_count(workers)
-    function = partial(play, limits=planned.limits, replays=replays)
-    with nullcontext() if out is None else Folder(out, planned, replays) as folder:
+    function = partial(play, limits=planned.limits)
+    with nullcontext() if out is None else Folder(out, planned) as folder:
         done = [] if folder is None else [*folder.before]
         bar = progress(len(planned.matches), "match", len(done), show=show_progress)
         interrupted = False

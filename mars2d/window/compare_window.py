@@ -183,7 +183,7 @@ class CompareWindow(PlayerWindow):
     # -- events ---------------------------------------------------------------------------------
 
     def _take(self, event: pygame.Event) -> bool:
-        return self.toolbar.handle(event) or self._controls.handle(event)
+        return self.toolbar.handle(event)
 
     def _point(self, event: pygame.Event) -> None:
         """Handle the mouse on the arenas, the plot and the bars."""

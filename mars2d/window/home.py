@@ -41,7 +41,7 @@ class Home:
         self.page, self.search = Page(), TextField()
         self.choice: tuple[str, ...] | None = None
         self._buttons = Buttons([of_controls(("dark", "text"), self.looks.actions, keys=False)])
-        self._open, self._held = True, False
+        self._open = True
         if note:
             self._notes.say(note, "error")
 
@@ -67,10 +67,13 @@ class Home:
 
     @property
     def shelves(self) -> list[Shelf]:
-        """The shelves, with the cards in which the words that were typed occur."""
-        found = (Shelf(each.title, [card for card in each.cards if card.has(self.search.text)])
-                 for each in self._all_shelves())  # fmt: skip
-        return [shelf for shelf in found if shelf.cards]
+        """The shelves, with the cards in which the words that were typed occur, titles first."""
+        words, found = self.search.text, list[Shelf]()
+        for shelf in self._all_shelves():
+            cards = [card for card in shelf.cards if card.has(words)]
+            cards.sort(key=lambda card: not card.is_called(words))
+            found += [Shelf(shelf.title, cards)] if cards else []
+        return sorted(found, key=lambda shelf: not shelf.cards[0].is_called(words))
 
     def _all_shelves(self) -> list[Shelf]:
         own = [_own_card(path, self._memory.picture(path)) for path in self._memory.recent]
@@ -169,21 +172,14 @@ class Home:
         elif event.type == pygame.MOUSEWHEEL:
             self.page.scroll(-event.y, ui)
         elif event.type == pygame.MOUSEMOTION:
-            if self._held:
-                self.page.drag_bar(event.pos[1], ui)
-            elif (card := self.page.at(event.pos)) is not None:
-                self.page.chosen = card
+            card = self.page.at(event.pos)
+            self.page.chosen = self.page.chosen if card is None else card
         elif event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
             self._click(event.pos)
-        elif event.type == pygame.MOUSEBUTTONUP:
-            self._held = False
 
     def _click(self, pixel: tuple[int, int]) -> None:
-        bar, card = self.page.bar(self.painter.ui), self.page.at(pixel)
-        if bar is not None and pixel[0] >= bar.left - 2:
-            self._held = True
-            self.page.drag_bar(pixel[1], self.painter.ui)
-        elif card is not None:
+        card = self.page.at(pixel)
+        if card is not None:
             self.page.chosen = card
             on = (command for place, command in self.page.buttons if place.collidepoint(pixel))
             self._choose(next(on, None))

@@ -152,7 +152,7 @@ class Simulation(State):
 
     @property
     def record(self) -> Record:
-        """The record so far."""
+        """The record so far; the present state is its last row once the run is over."""
         return Record.of(
             self.recorder.record(
                 self.seed,

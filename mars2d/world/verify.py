@@ -3,24 +3,20 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from itertools import zip_longest
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons.map import Map
 from mars2d.core.arithmetic import norms
-from mars2d.core.deadline import Deadline, patience
 from mars2d.core.errors import InputError, counted
 from mars2d.physics.versions import versions
 from mars2d.record.contact import CONTACT, rows_of
-from mars2d.record.interventions import Change, Intervention, Steer
-from mars2d.scenario.experiment import Experiment
+from mars2d.record.interventions import Change, Intervention
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import MOVING
-from mars2d.world.loop import open_world
 from mars2d.world.record import Record
 from mars2d.world.world import World
 
@@ -29,8 +25,8 @@ from mars2d.world.world import World
 class Departure:
     """A difference between a record and the same run again.
 
-    row, time [s]: of the record. what: "pose", "effort", "contact" or "command". bodies: the name
-    of the one that departs most, or of the pair in touch. metres, radians: the error of its pose.
+    row, time [s]: of the record. what: "pose", "effort" or "contact". bodies: the name of the
+    one that departs most, or of the pair in touch. metres, radians: the error of its pose.
     how: the rest, in words.
     """
 
@@ -65,69 +61,22 @@ def rerun(record: Record, progress: Callable[[int], None] | None = None) -> Depa
     scenario = _in_motion(_as_long(record.scenario, record))
     interventions = [_in_motion_of(each) for each in record.interventions]
     world = World(scenario, seed=record.seed)
-    row, departure = _follow(record, world, interventions, world.step, progress)
-    last = row if departure is None else row - 1
+    done: dict[int, list[Intervention]] = defaultdict(list)
+    for intervention in interventions:
+        done[intervention.row].append(intervention)
+    last, departure = -1, None
+    for row, command in enumerate(record.command):
+        for intervention in done[row]:
+            world.operator.redo(intervention)
+        departure = _departs(row, world, record)
+        if departure is not None:
+            break
+        last = row
+        if row < len(record) - 1:
+            world.step(command)
+        if progress is not None:
+            progress(row + 1)
     return _contacts_depart(record, world.record, last) or departure
-
-
-def ask_again(
-    record: Record, experiment: Experiment, progress: Callable[[int], None] | None = None
-) -> list[Departure]:
-    """Ask an experiment's laws again in the states of a record; return where they decide otherwise.
-
-    The world follows the recorded commands, and the laws are asked in each control step, so a law
-    that decides otherwise once is asked in the recorded states ever after. One departure a row; a
-    last one is of a pose, where the experiment is not that of the record. Commands by hand are
-    left out. progress: called with the number of rows done. Raises InputError where the scenario
-    was changed while it ran, or the experiment has other bodies, and LawError where a law fails.
-    """
-    for change in record.interventions:
-        if isinstance(change, Change):
-            raise InputError(
-                f"the scenario was changed while it ran, at {record.time[change.row]:g} s: its "
-                "laws can't be asked again"
-            )
-    own, theirs = ([str(b.name) for b in s.bodies] for s in (record.scenario, experiment.scenario))
-    if own != theirs:
-        first = next((a, b) for a, b in zip_longest(own, theirs) if a != b)
-        raise InputError(
-            f"{experiment.source.name or 'the experiment'} has other robots and props than the "
-            f"record: {first[1] or 'none'} instead of {first[0] or 'none'}"
-        )
-    scenario = _as_long(experiment.scenario, record)
-    world = open_world(replace(experiment, scenario=scenario, seed=record.seed))
-    by_hand = dict.fromkeys(range(len(scenario.robots)), False)
-    found: list[Departure] = []
-
-    def step(command: NDArray[np.float64]) -> None:
-        row = world.iteration
-        if world.over:
-            raise InputError(f"now it ends at {record.time[row]:g} s: {world.over_message}")
-        for each in record.interventions:
-            if isinstance(each, Steer) and each.row == row:
-                by_hand[each.robot] = each.driven
-        asked = world.simulation.follow(command)
-        laws = [robot for robot, driven in by_hand.items() if not driven]
-        if not _same(asked[:, laws], command[:, laws]):
-            found.append(_decides(row, record, asked, laws))
-
-    with Deadline(patience(), calls=lambda: world.simulation.calls):
-        _, departure = _follow(record, world, record.interventions, step, progress)
-    return found if departure is None else [*found, departure]
-
-
-def _decides(row: int, record: Record, asked: NDArray[np.float64], laws: list[int]) -> Departure:
-    """Return the difference between the commands that laws ask for and those of a row."""
-    before = record.command[row]
-    others = [i for i in laws if not _same(asked[:, i], before[:, i])]
-    one, *more = others
-    how = f", and so of {counted(len(more), 'other')}" if more else ""
-    told = [f"({v:g}, {w:g})" for v, w in (asked[:, one], before[:, one])]
-    if told[0] == told[1]:
-        told = [f"({v!r}, {w!r})" for v, w in (asked[:, one].tolist(), before[:, one].tolist())]
-    name = record.scenario.body_name(one)
-    how = f"is now {told[0]}, not {told[1]}{how}"
-    return Departure(row, float(record.time[row]), "command", (name,), how=how)
 
 
 def _as_long(scenario: Scenario, record: Record) -> Scenario:
@@ -138,31 +87,6 @@ def _as_long(scenario: Scenario, record: Record) -> Scenario:
     longer = (len(record) + 1) * record.scenario.sampling_time
     exit_ = "ignore" if scenario.on_exit == "stop" else scenario.on_exit
     return scenario.replace(stop_time=longer, on_exit=exit_)
-
-
-def _follow(
-    record: Record,
-    world: World,
-    interventions: Sequence[Intervention],
-    step: Callable[[NDArray[np.float64]], None],
-    progress: Callable[[int], None] | None,
-) -> tuple[int, Departure | None]:
-    """Repeat a record in a world; return the row reached, and the deviation there."""
-    done: dict[int, list[Intervention]] = defaultdict(list)
-    for intervention in interventions:
-        done[intervention.row].append(intervention)
-    row = -1
-    for row, command in enumerate(record.command):
-        for intervention in done[row]:
-            world.operator.redo(intervention)
-        departure = _departs(row, world, record)
-        if departure is not None:
-            return row, departure
-        if row < len(record) - 1:
-            step(command)
-        if progress is not None:
-            progress(row + 1)
-    return row, None
 
 
 def other_versions(record: Record) -> dict[str, tuple[str, str]]:

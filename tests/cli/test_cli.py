@@ -3,7 +3,6 @@
 import json
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
@@ -11,7 +10,6 @@ import pytest
 
 import mars2d
 from mars2d.cli import command_line as cli
-from mars2d.scenario.experiment import open_experiment
 from tests.cases import each_case
 from tests.processes import PATIENCE, mars, wait_until
 
@@ -58,13 +56,6 @@ def test_set_overrides_fields_and_parameters(tmp_path):
     record = mars2d.load(tmp_path / "a.npz")
     assert [robot.diameter for robot in record.scenario.robots] == [0.2] * 3
     assert record.time.tolist() == [0.0, 0.5, 1.0]
-
-
-def test_a_run_without_a_display_says_so_and_runs(tmp_path):
-    done = mars("run", "random_walk", "--stop-time", 5, cwd=tmp_path)
-    assert done.returncode == 0
-    assert "no display" in done.stderr
-    assert "Random movements" in done.stdout
 
 
 def test_check_says_where_a_record_departs(tmp_path, capsys):
@@ -136,30 +127,6 @@ def test_ctrl_c_keeps_the_record_and_exits_130(tmp_path):
     assert "Ctrl-C" in record.over_message
 
 
-def test_what_add_ons_and_sensors_do_is_the_same_with_frames_taken_as_a_window_does(tmp_path):
-    """A window reads sensors before it draws: the order of add-ons and sensors must not change."""
-    from mars2d.scenario.experiment import open_experiment
-    from mars2d.world.timeline import Timeline
-
-    (tmp_path / "counting.py").write_text(
-        HEAD + "class Counter(Addon):\n"
-        "    def on_start(self, world):\n        self.steps = 0\n"
-        "    def on_step(self, world):\n        self.steps += 1\n"
-        "        if self.steps == 8:\n            world.stop('enough')\n"
-        "class Steps(Sensor):\n"
-        "    def read(self, robot, world, rng):\n"
-        "        return world.addons.counter.steps + rng.random()\n"
-        "scenario = Scenario(robots=[Robot(sensors=[Steps()])], addons=[Counter()])\n"
-    )
-    live = Timeline(open_experiment(tmp_path / "counting.py"))
-    while not live.over:
-        assert live.frame.readings["steps"][0][1] >= live.frame.iteration + 1
-        live.advance()
-    headless = mars2d.run(tmp_path / "counting.py")
-    assert live.record.digest == headless.digest
-    assert len(headless) == 8
-
-
 def test_a_record_with_parts_of_the_users_own_can_be_drawn_and_run_again(tmp_path, capsys):
     from mars2d.output.raster.picture import paint_frame
 
@@ -171,25 +138,6 @@ def test_a_record_with_parts_of_the_users_own_can_be_drawn_and_run_again(tmp_pat
     shown = capsys.readouterr().out
     assert "sensor Eyes" in shown
     assert "bit-identical" in shown
-
-
-def test_a_record_with_a_drive_of_the_users_own_loads_and_says_that_it_can_not_be_rerun(
-    tmp_path, capsys
-):
-    class Sideways(mars2d.Drive):
-        def saturate(self, command):
-            return command
-
-        def twist(self, command):
-            return np.array([0 * command[0], command[0], command[1]])
-
-    scenario = mars2d.Scenario(robots=[mars2d.Robot(drive=Sideways())], stop_time=1)
-    record = mars2d.run(scenario, control=lambda world: [[0.1], [0.2]])
-    assert record.pose[-1, 1, 0] > 0.09
-    path = record.save(tmp_path / "own.npz")
-    assert np.array_equal(mars2d.load(path).pose, record.pose)
-    assert cli.main(["check", str(path)]) == 2
-    assert "drive Sideways" in capsys.readouterr().err
 
 
 def test_an_experiment_may_import_what_lies_beside_it_and_two_do_not_meet(tmp_path):
@@ -204,21 +152,6 @@ def test_an_experiment_may_import_what_lies_beside_it_and_two_do_not_meet(tmp_pa
     ends = [mars2d.run(tmp_path / str(k) / "main.py").time[-1] for k in (1, 2)]
     assert ends == [1.0, 2.0]
     assert "helper" not in sys.modules
-
-
-def test_experiments_may_be_opened_by_several_threads_at_once(tmp_path):
-    (tmp_path / "helper.py").write_text("END = 1\n")
-    (tmp_path / "main.py").write_text(
-        "import sys, time\nfrom dataclasses import dataclass\nfrom mars2d import Scenario\n"
-        "for _ in range(20):\n    time.sleep(0)  # lets other threads run\n"
-        "from helper import END\n@dataclass\nclass Goal:\n    time: 'float' = END\n"
-        "assert sys.dont_write_bytecode\nscenario = Scenario(stop_time=Goal().time)\n"
-    )
-    with ThreadPoolExecutor(4) as pool:
-        opened = list(pool.map(open_experiment, [tmp_path / "main.py"] * 40))
-    assert [experiment.scenario.stop_time for experiment in opened] == [1] * 40
-    assert "helper" not in sys.modules
-    assert str(tmp_path) not in sys.path
 
 
 # -- experiments that check themselves --------------------------------------------------------
@@ -294,21 +227,3 @@ def test_checks_that_fail_lose_no_data(roll, tmp_path, capsys, options):
     assert ("finished after 2 s" in shown.out) is not bool(options)
     assert mars2d.load(paths[0]).finished
     assert all(path.stat().st_size > 100 for path in paths)
-
-
-def test_a_law_in_the_current_folder_plays_in_an_experiment_elsewhere(tmp_path):
-    (tmp_path / "games").mkdir()
-    (tmp_path / "games" / "idle.py").write_text("def control(robot):\n    return 0, 0\n")
-    (tmp_path / "games" / "duel.py").write_text(
-        HEAD + "def scenario(red='idle.py'):\n"
-        "    return Scenario(robots=[Robot(controller=load_law(red))], stop_time=1)\n"
-    )
-    (tmp_path / "my_law.py").write_text("def control(robot):\n    return robot.posee[0], 0\n")
-    run = ["run", "games/duel.py", "--headless"]
-    assert mars(*run, cwd=tmp_path).returncode == 0
-    done = mars(*run, "--set", "red=my_law.py", cwd=tmp_path)
-    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
-    assert "my_law.py, line 2" in done.stderr
-    done = mars(*run, "--set", "red=my_lwa.py", cwd=tmp_path)
-    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
-    assert "did you mean 'my_law.py'?" in done.stderr

@@ -64,12 +64,12 @@ def test_a_copy_replaces_nothing_and_a_wrong_name_is_answered(here, capsys):
     "words, wanted",
     [
         (["mars2d", "swe"], {"sweep"}),
-        (["mars2d", "run", "corner_g"], {"corner_game"}),
-        (["mars2d", "run", "wal"], {"wall_follower", "wall_slide", "walk.py"}),
+        (["mars2d", "copy", "corner_g"], {"corner_game"}),
+        (["mars2d", "run", "wal"], {"walk.py", "walk.txt"}),
         (["mars2d", "run", "x.py", "--headl"], {"--headless"}),
     ],
 )
-def test_bash_completes_commands_options_examples_and_files(here, capsys, words, wanted):
+def test_bash_completes_commands_options_and_files(here, capsys, words, wanted):
     pytest.importorskip("shtab")
     (here / "walk.py").touch()
     (here / "walk.txt").touch()

@@ -51,12 +51,6 @@ def test_without_a_kind_the_paths_are_drawn_and_no_file_is_overwritten(plot, tmp
     assert (tmp_path / "duel_paths_2.png").read_bytes() != first
 
 
-def test_a_file_that_is_named_is_written_over(plot, tmp_path):
-    (tmp_path / "old.svg").write_text("old")
-    assert plot("signals", "--figure", "old.svg") == (0, "figure: old.svg")
-    assert "<svg" in (tmp_path / "old.svg").read_text()
-
-
 def test_columns_and_robots_are_chosen_by_name_before_index(plot, tmp_path):
     options = ["--columns", "x,command.v", "--robots", "0", "--figure", "a.svg"]
     assert plot("signals", *options)[0] == 0

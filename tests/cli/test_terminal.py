@@ -15,8 +15,6 @@ from mars2d import InputError, Scenario
 from mars2d.cli import command_line as cli
 from mars2d.core.terminal import tell, warn
 from mars2d.output.formats.header import as_text
-from mars2d.study.table import Result, Table
-from mars2d.tournaments import league
 
 EVIL = "\x1b]0;owned\x07\x9b31m\u202egnp\u2066\r\nmars2d: all is well\ud800"
 """Codes of a terminal, text that is turned round, a line that is forged, half a character."""
@@ -37,19 +35,6 @@ def test_a_foreign_record_is_escaped(tmp_path, capsys) -> None:
     told = capsys.readouterr()
     assert r"(\x1b]0;owned\x07\x9b31m\u202egnp\u2066\r\nmars2d: all is well)" in told.out
     assert not UNSEEN.search(told.out + told.err)
-
-
-def test_tables_are_escaped(tmp_path) -> None:
-    failed = Result(1, {"n": 1}, 0, {}, EVIL)
-    saved = Table("team.py", ("n",), (), (failed,)).save(tmp_path / "rows.csv").read_bytes()
-    assert rb"\x1b]0;owned" in saved
-    assert not UNSEEN.search(saved.decode().replace("\r\n", ""))
-    assert not UNSEEN.search(league._cell(EVIL))
-
-
-def test_json_stays_json(capsys) -> None:
-    tell(json.dumps({"message": EVIL + "\x7f"}))
-    assert json.loads(capsys.readouterr().out)["message"] == EVIL + "\x7f"
 
 
 # -- the writer itself -----------------------------------------------------------------------------

@@ -11,7 +11,7 @@ import pytest
 
 import mars2d
 from mars2d import InputError, Scenario
-from mars2d.core.files import atomic_write, growing
+from mars2d.core.files import atomic_write
 from tests.cases import each_case
 from tests.processes import mars
 
@@ -76,33 +76,3 @@ def test_a_pipe_is_refused_before_the_run(tmp_path, suffix) -> None:
     with pytest.raises(InputError, match="this is a pipe or a device; expected a file"):
         mars2d.run(Scenario(stop_time=1), record=pipe)
     assert pipe.is_fifo()
-
-
-def test_a_file_that_grows_has_one_writer(tmp_path) -> None:
-    path = tmp_path / "rows"
-    with growing(path) as file:
-        file.write(b"one")
-        for afresh in (False, True):
-            with pytest.raises(InputError, match="rows: another process is writing to it"):
-                growing(path, afresh=afresh)
-    assert path.read_bytes() == b"one"
-    with growing(path) as file:
-        file.write(b"two")
-    assert path.read_bytes() == b"onetwo"
-    growing(path, afresh=True).close()
-    assert path.read_bytes() == b""
-
-
-def test_no_record_is_saved_over_a_log_that_a_run_writes(tmp_path) -> None:
-    pytest.importorskip("mcap")
-    path = tmp_path / "run.mcap"
-    other = mars2d.run(Scenario(stop_time=1))
-
-    def control(world):
-        if world.iteration == 5:
-            with pytest.raises(InputError, match="another process is writing to it"):
-                other.save(path)
-        return 0.1, 0.2
-
-    record = mars2d.run(Scenario(stop_time=1), control=control, record=path)
-    assert mars2d.load(path).digest == record.digest

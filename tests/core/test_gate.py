@@ -1,15 +1,13 @@
 """Nothing that ends the process, hangs it or lies gets through to the engine.
 
 Each test runs its inputs in a child process without Python's own asserts: an abort would take the
-tests with it. All inputs go through the public constructors, or come out of laws.
+tests with it. All inputs go through the public constructors.
 """
 
 from __future__ import annotations
 
 import itertools
 import json
-
-import pytest
 
 PRELUDE = """
 import json, sys, warnings
@@ -50,9 +48,6 @@ SQUARE = [(-0.1, -0.1), (0.1, -0.1), (0.1, 0.1), (-0.1, 0.1)]
 BOW = [(0, 0), (1, 1), (1, 0), (0, 1)]
 FAR = (1, 1, 0)
 
-def own(law):
-    return go(Robot(controller=law))
-
 def attempt(code):
     try:
         eval(code)
@@ -67,7 +62,7 @@ def attempt(code):
 
 def outcomes(child, cases: list[str], *flags: str) -> dict:
     """Return what became of each case; ends with the case at which the process died, if it did."""
-    code = PRELUDE + USERS + f"\nfor case in {cases!r}:\n"
+    code = PRELUDE + f"\nfor case in {cases!r}:\n"
     result = child(code + "    print(json.dumps([case, attempt(case)]), flush=True)", *flags)
     found = dict(json.loads(line) for line in result.stdout.splitlines())
     assert result.returncode == 0, (result.returncode, [*found][-1:], result.stderr[-500:])
@@ -135,15 +130,6 @@ ROWS = {
         "go(workspace=[(0, 0), (1, 1)])",
         "go(workspace=[(-2, -2), (2, 2), (2, -2), (-2, 2)])",
     ],
-    "starts in other bodies": [
-        "go(Robot(), Robot())",
-        "go(Robot(), Robot(pose=(0.29, 0, 0)))",
-        "go(Robot(), Robot(), max_overlap=1.0)",
-        "go(Robot(center_offset=0.1), Robot(center_offset=-0.1, pose=(0.2, 0, 3.14159)))",
-        "go(Robot(), addons=[Map([[(-1, -1), (1, -1), (0, 2)]])])",
-        "go(Robot(), addons=[Map([[(0.1, -1), (0.1, 1)]])])",
-        "go(Robot(pose=(1.9, 0, 0)))",
-    ],
     "shapes": [
         *fields("go(Robot(shape=Disc(@)))", "0", "1e-9", "1e4"),
         *fields("Disc(0.2, center=(@, 0))", "1e7", without=("-1.0",)),
@@ -162,17 +148,6 @@ ROWS = {
     "moments": [
         *fields("go(Robot(moment=@))", "0", "1e-300", "1e300", "1", "1e-6", without=("None",)),
         *fields("push(Box(pose=FAR, moment=@))", "0", "1e-300", "1", "1e-6", without=("None",)),
-    ],
-    "materials": [
-        *fields("go(Robot(friction=@))", "'wod'", "''", "'WOOD '", "b'wood'", "'-1'"),
-        *fields("go(Robot(restitution=@))", "'stele'", "1.1", "-0.1"),
-        *fields("push(Box(pose=FAR, friction=@))", "'wod'", without=("None",)),
-        *fields("push(Box(pose=FAR, restitution=@))", "'wod'", "2", without=("None",)),
-        *fields("push(Box(pose=FAR, material=@))", "'wod'", "'Wood'", "5", without=("None",)),
-        "push(Box(pose=FAR, material='steel'))",  # 126 kg
-        "push(Box(pose=FAR, material='foam', height=1e-3))",
-        "push(Box(pose=FAR, material='steel', height=1e-300))",
-        "push(Box(pose=FAR, length=1e3, width=1e3, material='steel', height=1e3), workspace=None)",
     ],
     "props": [
         *fields("push(Box(pose=FAR, mass=@))", "0", "1e-7", "1e7", "0.05", "11",
@@ -198,21 +173,6 @@ ROWS = {
         *fields("push(Solid(@, pose=FAR))", "SQUARE", "Polygon(BOW)", "Polygon", "Box()",
                 "Shape()"),
         "go(Robot(), physics='contacts', props=[Box(pose=FAR)])",
-    ],
-    "bodies too large beside too thin ones": [
-        ("push(Box(pose=(600, 0), length=1e3, width=1), Puck(pose=FAR, diameter=1e-3),"
-        " workspace=None)"),
-        "go(Robot(shape=Polygon([(-500, 0), (500, 0), (0, 0.1)]), mass=1), workspace=None)",
-    ],
-    "props that start in something": [
-        "push(Box())", "push(Box(pose=(0.3, 0)))",
-        "push(Box(pose=(1, 0)), Box(pose=(1.3, 0, 0.1)))",
-        "push(Box(pose=FAR), addons=[Map([[(1.1, -1), (1.1, 2)]])])",
-        "push(Box(pose=FAR), addons=[Map([[(0.5, 0.5), (1.5, 0.5), (1.5, 1.5), (0.5, 1.5)]])])",
-        "push(Solid(Polygon([(0, 0), (1, 0), (1, 1)]), pose=FAR), Puck(pose=(1.1, 0.9)))",
-        "push(Solid(Compound([Disc(0.2), Disc(0.2).moved(1, 0)]), pose=FAR), Puck(pose=(1.5, 1)))",
-        "go(Robot(shape=Polygon(SQUARE)), Robot(shape=Polygon(SQUARE), pose=(0.1, 0.1, 0.5)))",
-        "go(Robot(), Robot(pose=FAR), props=[Puck(pose=FAR)], max_overlap=1.0)",
     ],
     "joints": [
         *fields("tie(Rope(a='robot0', b='box0', length=@))", "0", "1e-300", "0.5", "1e9",
@@ -246,164 +206,11 @@ ROWS = {
         "max_linear_speed=50)), Robot(pose=(-1, 0, 0))])"),
         "go(Robot(center_offset=0.1, drive=Unicycle(max_linear_speed=1e3, wheel_semiaxis=1e-3)))",
     ],
-    "lists and words": [
-        "go(robots=None)", "Scenario(robots=[])", "Scenario(robots=0)", "Scenario(robots=-1)",
-        "Scenario(addons=None)", "Scenario(addons=[1])", "Robot(sensors=Proximity(range=1))",
-        "Robot(sensors=[Proximity])", "Robot(sensors=[Map([])])", "Robot(drive=Unicycle)",
-        "Robot(controller=lambda a, b: 0)", "Robot(sees='all')", "Robot(name=5)",
-        "Proximity(range=1, field_of_view=7)", "Proximity(range=1, name='a b')",
-        "Animation(playback_speed=np.array([1, 2]))", "Animation(playback_speed=nan)",
-        "Scenario(robots=[Robot(name='a'), Robot(name='a', pose=(1, 0, 0))])",
-        "Robot(sensors=[Proximity(range=1), Proximity(range=2)])",
-        "World(None)", "World(Scenario)", "World(Scenario(), seed=-1)",
-        "World(Scenario(), control=lambda: 0)",
-    ],
 }  # fmt: skip
 """The rows of the table of what aborts, lies or hangs, with inputs that would do it."""
 
 
-USERS = """
-from mars2d.bodies.rigid import Inertia, Surface
-class NanMap(Addon):
-    def obstacles(self): return [[(nan, 0), (1, 1)]]
-class Steps(Addon):
-    def on_step(self, world): world.step()
-class NanDrive(Unicycle):
-    def twist(self, command): return np.full((3, command.shape[1]), nan)
-class LightDrive(Unicycle):
-    def twist(self, command): return np.full((3, command.shape[1]), 3e8)
-class ShortDrive(Unicycle):
-    def twist(self, command): return np.zeros((2, command.shape[1]))
-class NoDrive(Drive):
-    pass
-def stepping(world):
-    world.step()
-    return [[0], [0]]
-def writes_pose(world):
-    world.pose[0] = nan
-    return [[0], [0]]
-def writes_history(world):
-    world.history.pose[0] = nan
-    return [[0], [0]]
-def writes_own_pose(robot):
-    robot.pose += nan
-    return 0, 0
-def changes_scenario(world):
-    world.scenario.sampling_time = -1
-    return [[0], [0]]
-def exits(robot):
-    raise SystemExit(3)
-def yields_nan(robot):
-    while True:
-        yield nan, 0
-class NoShape(Prop):
-    pass
-class NanShape(Prop):
-    @property
-    def shape(self): return Disc(nan)
-class OwnShape(Prop):
-    @property
-    def shape(self): return Odd()
-class Odd(Shape):
-    @property
-    def pieces(self): return ((((nan, 0.0),), nan),)
-class BesideIt(Prop):
-    @property
-    def shape(self): return Disc(0.2).moved(1, 0)
-class NanMass(Box):
-    @property
-    def inertia(self): return Inertia(nan, 1.0)
-class NanSurface(Box):
-    @property
-    def surface(self): return Surface(nan, 0.5)
-class FailingJoints(Box):
-    def joints(self): return 1 / 0
-class TiedToNobody(Box):
-    def joints(self): return [Rope(a=self.name, b="nobody")]
-class Negative(Addon):
-    friction: float = -1.0
-    def obstacles(self): return [[(1, 1), (1, 0)]]
-"""
-
-
-OWN = [
-    *(f"go(addons=[{name}()])" for name in ("NanMap", "Steps", "Negative")),
-    *(
-        f"go(Robot(), props=[{name}(pose=(1, 1))])"
-        for name in ("NoShape", "NanShape", "OwnShape", "BesideIt")
-    ),
-    *(
-        f"go(Robot(), props=[{name}(pose=(1, 1))])"
-        for name in ("NanMass", "NanSurface", "FailingJoints", "TiedToNobody")
-    ),
-    "go(Robot(shape=Odd()))",
-    *(f"go(Robot(drive={name}()))" for name in ("NanDrive", "LightDrive", "ShortDrive", "NoDrive")),
-    *(f"go(law={name})" for name in ("stepping", "writes_pose", "changes_scenario")),
-    "go(law=writes_history)",
-    *(f"own({name})" for name in ("writes_own_pose", "exits", "yields_nan")),
-]
-"""What users write themselves, in place of laws and parts of ours."""
-
-
 def test_what_would_abort_lie_or_hang_is_an_input_error(child):
-    cases = [*itertools.chain(*ROWS.values()), *OWN]
+    cases = [*itertools.chain(*ROWS.values())]
     passed = {k: v for k, v in outcomes(child, cases, "-O").items() if v != "InputError"}
     assert passed == {}
-
-
-@pytest.mark.slow
-def test_extreme_but_sound_inputs_run_and_stay_finite(child):
-    cases = [
-        "go(Robot(mass=1e-6, drive=Unicycle(max_force=0.01)), commands=[[1], [1]])",
-        "go(Robot(mass=1e6), commands=[[1], [1]])",
-        "go(Robot(friction=1e3, restitution=1), commands=[[1], [1]])",
-        "go(Robot(diameter=1e-3), commands=[[1], [1]])",
-        "go(Robot(drive=Unicycle(max_force=1e-300, max_torque=1e-300)), commands=[[1], [1]])",
-        "go(Robot(drive=Unicycle(max_linear_speed=1000)), steps=1, commands=[[1000], [0]])",
-        "go(Robot(), sampling_time=1e4, stop_time=1e5, steps=1, commands=[[0], [9]])",
-        "go(Robot(pose=(1e6, -1e6, 1e6)), workspace=None, commands=[[1], [1]])",
-        "go(sampling_time=1e-6, stop_time=1, commands=[[1], [1]])",
-        "go(command_delay=1e3, commands=[[1], [1]])",
-        "go(max_overlap=1.0, commands=[[1], [0]])",
-        "own(lambda robot: (1e300, -1e300))",
-        "go(Robot(drive=Holonomic()), commands=[[1e300], [1e300]])",
-        "own(lambda robot: np.array([0.1, 0.2], dtype=np.float16))",
-        "own(lambda robot: [np.int8(1), np.float32(0.5)])",
-        "own(lambda robot: np.array([[0.1], [0.2]]))",
-        "go(law=lambda world: (0.1, 0.2))",
-        "go(robots=np.int64(3))",
-        "go(Robot(), addons=[Map([])])",
-        "push(Puck(pose=FAR, velocity=(100, 0)))",
-        "push(Ball(pose=FAR, velocity=(70, 70, 9), ground_friction=0, restitution=1))",
-        "push(Box(pose=FAR, velocity=(0, 0, 100)))",
-        "push(Bar(pose=(1, 0, 0), length=1.4, thickness=1e-3), commands=[[1], [0]])",
-        (
-            "push(Solid(Polygon([(0, 0), (1, 0), (1, 1e-3)]), pose=(1, 0), friction=1e3),"
-            " commands=[[1], [0]])"
-        ),
-        "push(Puck(pose=FAR, mass=0.1, ground_friction=100), commands=[[1], [1]])",
-        (
-            "push(Gate(pose=(1, 0, 1.57), stiffness=1e4, damping=1e6, limits=(0, 0)),"
-            " sampling_time=0.05, commands=[[1], [0]])"
-        ),
-        "push(Gate(pose=(1, 0, 1.57), limits=None, damping=0), commands=[[1], [0]])",
-        "push(Solid(Compound([Disc(0.2)] * 64), pose=(1, 0)), commands=[[1], [0]])",
-        (
-            "tie(Spring(a='robot0', b='load', stiffness=1e5, damping=1e6),"
-            " sampling_time=0.05, commands=[[1, -1], [0, 0]])"
-        ),
-        "tie(Rod(a='robot0', b='robot1'), commands=[[1, -1], [5, 5]])",
-        "tie(Rope(a='robot0', b='load', length=1e6), commands=[[1, -1], [5, 5]])",
-        "tie(Rope(a='load', anchor_b=(1.5, 1.5)), commands=[[1, -1], [5, 5]])",
-        (
-            "tie(Hinge(a='robot0', b='box0', anchor_a=(0, 0.5), anchor_b=(0, -0.5), limits=(0, 0)),"
-            " commands=[[1, -1], [5, 5]])"
-        ),
-        "tie(Hinge(a='robot0'), commands=[[1, -1], [5, 5]])",
-        "go(Robot(mass=10), props=[Box(pose=FAR, material='steel', height=0.05)])",
-        (
-            "push(*[Puck(pose=(x / 9, y / 9), diameter=0.1) for x in range(-9, 10)"
-            " for y in range(3, 12)])"
-        ),
-    ]
-    assert outcomes(child, cases) == dict.fromkeys(cases, "passed")

@@ -24,13 +24,15 @@ import os
 import re
 import shlex
 import shutil
-from collections.abc import Iterator
+import sys
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields, is_dataclass
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 import pytest
+from PIL import Image
 
 import mars2d
 import mars2d.rl
@@ -44,7 +46,7 @@ from mars2d.geometry import shapes
 from mars2d.scenario import load_scenario
 from mars2d.scenario.examples import examples, examples_folder
 from mars2d.scenario.experiment import open_experiment
-from mars2d.scenario.registry import FAMILIES, members
+from mars2d.scenario.registry import members
 from mars2d.window.run import keys
 from mars2d.world.views import PropView, RobotView
 from tests.cases import each_case
@@ -72,6 +74,10 @@ MEASURED = {
 }  # fmt: skip
 """Pictures that no block makes: `benchmarks/growth.py` and `docs/make/pursuit.py` take minutes, a
 page needs a browser, a window somebody at the keys."""
+
+sys.path.insert(0, str(ROOT / "docs" / "make"))
+DRAWN: dict[str, Callable[[Path], None]] = importlib.import_module("pictures").PICTURES
+"""Pictures of windows, which `docs/make/pictures.py` makes."""
 
 LANGUAGES = {"python", "toml", "console", "text", "matlab", ""}
 
@@ -222,10 +228,20 @@ def test_a_document_does_what_it_says(document, tmp_path, monkeypatch):
     Reader(document).read()
     if document in SENSORS:
         return  # their pictures are made by docs/make/sensors.py
-    for name in set(pictures(document)) - MEASURED:
+    for name in set(pictures(document)) - MEASURED - {f"{each}.png" for each in DRAWN}:
         assert (tmp_path / name).is_file(), f"{name} was not made"
         if os.environ.get("MARS2D_PICTURES") == "new":
             shutil.copy(tmp_path / name, ROOT / "docs" / "pictures" / name)
+
+
+@pytest.mark.slow
+@pytest.mark.nightly
+@each_case("name", list(DRAWN))
+def test_the_pictures_of_windows_are_made(name, tmp_path):
+    DRAWN[name](tmp_path / f"{name}.png")
+    shown = ROOT / "docs" / "pictures" / f"{name}.png"
+    with Image.open(tmp_path / shown.name) as made, Image.open(shown) as kept:
+        assert made.size == kept.size
 
 
 @each_case("document", DOCUMENTS)
@@ -276,12 +292,12 @@ def test_each_document_is_on_a_shelf_of_the_site():
 
 
 @each_case("name", sorted(members("sensors")))
-def test_a_sensors_page_has_its_picture_and_the_table_of_its_fields(name, monkeypatch):
+def test_a_sensors_page_has_its_picture_and_its_fields(name, monkeypatch):
     monkeypatch.syspath_prepend(ROOT / "docs" / "make")
     made = importlib.import_module("sensors")
     kind = getattr(sensors, name)
     text = made.page(kind).read_text(encoding="utf-8")
-    assert text == made.with_table(text, kind), "run: python docs/make/sensors.py"
+    assert text == made.with_fields(text, kind), "run: python docs/make/sensors.py"
     assert kind in made.SCENES
     assert pictures(made.page(kind)) == [f"sensor_{snake_case(name)}.png"]
     titles = re.findall(r"^## (.+)$", prose(made.page(kind)), flags=re.M)
@@ -378,7 +394,7 @@ def test_the_keys_in_its_page_are_those_of_the_window():
     assert rows[start : start + len(wanted)] == wanted
 
 
-def test_the_table_of_fields_is_up_to_date():
+def test_the_page_of_fields_is_up_to_date():
     path = ROOT / "docs" / "make" / "fields.py"
     made = module(path).document()
     assert made == (ROOT / "docs" / "fields.md").read_text(encoding="utf-8"), (
@@ -452,7 +468,7 @@ def test_what_a_scene_draws_is_documented_with_its_arguments():
         assert {word.strip("= ") for word in call.split(",")} <= known, name
 
 
-def test_each_sensor_and_add_on_has_its_fields_in_their_table():
+def test_each_sensor_and_add_on_is_on_the_page_of_fields():
     titles = re.findall(r"^## (\w+)", (ROOT / "docs" / "fields.md").read_text(), flags=re.M)
     assert {*members("sensors"), *members("addons")} <= {*titles}
 
@@ -524,10 +540,6 @@ OWNERS: dict[str, Any] = {
 }  # fmt: skip
 
 
-GROUPS = {f"mars2d.{family}" for family in FAMILIES}
-"""The groups of entry points, which are no modules."""
-
-
 def has(owner: Any, name: str) -> bool:
     """Whether objects of a class, or a module, have an attribute."""
     if hasattr(owner, name):
@@ -547,7 +559,7 @@ def test_names_in_the_text_exist(document):
         named = re.match(r"(\w+)((?:\.\w+)+)", code)
         if named is None or named[1] not in OWNERS:
             continue
-        if (ROOT / "mars2d" / code.partition(" ")[0]).exists() or code in GROUPS:
+        if (ROOT / "mars2d" / code.partition(" ")[0]).exists():
             continue
         owner = OWNERS[named[1]]
         for name in named[2][1:].split("."):

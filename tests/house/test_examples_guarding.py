@@ -2,12 +2,13 @@
 
 import inspect
 import itertools
-from math import acos, hypot, pi
+from math import hypot, pi
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from mars2d.core.scene import Scene
 from mars2d.scenario.examples import examples, games
 from mars2d.scenario.experiment import open_experiment, open_module
 from mars2d.scenario.roles import contest_of
@@ -36,9 +37,10 @@ def outcome(name, seed=0, **options):
         ("capture_the_flag", {"guards": 1, "attackers": 1, "mu": 0.8}),
         ("round_a_pillar", {"mu": 1.5, "seed": 2}),
         ("round_a_pillar", {"mu": 1.0, "seed": 1}),
-        ("round_a_pillar", {"mu": 1.2}),
+        ("round_a_pillar", {"mu": 1.25, "pillar": 1.0}),
         ("hide_and_seek", {"mu": 1.6, "seed": 3}),
         ("hide_and_seek", {"mu": 1.15}),
+        ("hide_and_seek", {"mu": 1.4, "pillar": 2.5}),
         ("escort", {"mu": 0.48, "seed": 2}),
         ("escort", {"mu": 0.56, "seed": 4}),
         ("selfish_herd", {"number": 24, "seed": 5}),
@@ -88,6 +90,24 @@ def test_all_laws_of_a_game_play_each_other(name):
 # -- guard the line, capture the flag ------------------------------------------------------------
 
 
+@pytest.mark.parametrize(
+    ("name", "options"),
+    [
+        ("guard_the_line", {"mu": 0.7}),
+        ("capture_the_flag", {"guards": 1, "attackers": 1, "mu": 0.8, "seed": 1}),
+        ("straight_chase", {"evader": "evaders/away.py", "seed": 1}),
+    ],
+)
+def test_the_rings_of_the_best_play_are_about_those_who_play_it(name, options):
+    record, _, _ = played(name, **options)
+    frame, scene = record.frame(len(record) * 2 // 3), Scene()
+    record.scenario.addons[1].theory(scene, frame)
+    size = frame.scenario.robots[0].radius
+    rings = [shape.center for shape in scene.shapes if getattr(shape, "radius", 0) == size]
+    assert np.array(rings) == pytest.approx(frame.pose[:2].T, abs=0.1)
+    assert np.hypot(*(frame.pose - frame.scenario.initial_pose)[:2]).min() > 0.5
+
+
 def test_who_leaves_the_best_way_loses_by_it():
     """The height is a saddle point: a worse guard lets it fall, a worse attacker lets it rise."""
     for seed in (1, 2, 5):
@@ -111,7 +131,7 @@ def test_more_than_the_matching_reach_the_flag_only_past_worse_guards():
 
 def test_either_role_wins_the_games_at_their_defaults():
     """By chance alone one of two equals wins all of 12 games once in 2048 times."""
-    for name in ("escort", "pinned", "doorway", "round_a_pillar", "guard_the_line"):
+    for name in ("escort", "pinned", "doorway", "round_a_pillar", "guard_the_line", "corner_game"):
         winners = {played(name, seed)[1].winner for seed in range(8)}
         assert len(winners) == 2, name
 
@@ -131,13 +151,13 @@ def test_the_shortest_way_round_a_pillar_is_that_of_a_fine_polygon():
     shapely = pytest.importorskip("shapely")
     module = open_module(examples()["round_a_pillar"])
     rng = np.random.default_rng(0)
-    disc = shapely.Point(0, 0).buffer(module.RADIUS, quad_segs=400)
+    disc = shapely.Point(0, 0).buffer(1.75, quad_segs=400)
     for _ in range(20):
         places = [
             np.array(module.circle(angle, radius))
             for angle, radius in zip(rng.uniform(-pi, pi, 2), rng.uniform(1.76, 4, 2), strict=True)
         ]
-        way = shapely.LineString(module.shortest(*places))
+        way = shapely.LineString(module.shortest(*places, 1.75))
         assert way.buffer(-0).length < 12
         if shapely.LineString(places).intersects(disc.buffer(-1e-3)):
             hull = shapely.MultiPoint([*disc.exterior.coords, *places]).convex_hull.exterior
@@ -148,16 +168,7 @@ def test_the_shortest_way_round_a_pillar_is_that_of_a_fine_polygon():
             assert way.length == pytest.approx(hypot(*(places[0] - places[1])), rel=1e-3)
 
 
-def test_the_hider_is_seen_where_the_tangents_say():
-    record, _ = outcome("hide_and_seek", 2, mu=1.4)
-    (x, y), (hx, hy) = record.pose[-1, :2].T
-    angle = abs(np.angle(complex(hx, hy) / complex(x, y)))
-    assert angle == pytest.approx(acos(1.5 / hypot(x, y)) + acos(1.5 / hypot(hx, hy)), abs=0.01)
-    assert record.over_message.startswith("red sees blue")
-
-
 def test_a_bulky_seeker_has_to_be_quicker_by_the_ratio_of_the_circles():
-    assert pytest.approx(1.171, abs=1e-3) == 2.05 / 1.75
     for mu, winner in ((1.1, "hider"), (1.35, "seeker")):
         assert outcome("hide_and_seek", 0, mu=mu)[1].winner == winner
 
@@ -165,7 +176,7 @@ def test_a_bulky_seeker_has_to_be_quicker_by_the_ratio_of_the_circles():
 # -- escort -------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("seed", [0, 1, 2])
+@pytest.mark.parametrize("seed", [0, 1])
 def test_a_guard_half_as_quick_as_the_hunter_is_enough_and_needs_a_body(seed):
     for mu, winner in ((0.49, "hunter"), (0.56, "escort")):
         assert outcome("escort", seed, mu=mu)[1].winner == winner
@@ -173,18 +184,6 @@ def test_a_guard_half_as_quick_as_the_hunter_is_enough_and_needs_a_body(seed):
 
 
 # -- the selfish herd ----------------------------------------------------------------------------
-
-
-def test_the_first_victim_is_the_one_in_whose_cell_the_predator_appears():
-    from mars2d.geometry import Tessellation, rectangle
-
-    for seed in range(5):
-        record, result = outcome("selfish_herd", seed, wanted=1)
-        cells = Tessellation(record.pose[0, :2, 1:], rectangle(-5, 5, -5, 5)).cells
-        import shapely
-
-        inside = [cell.contains(shapely.Point(record.pose[0, :2, 0])) for cell in cells]
-        assert result.captures[0].evader == inside.index(True) + 1
 
 
 @pytest.mark.nightly

@@ -1,6 +1,5 @@
 """The examples about pushing: their predictions hold, on both sides of every threshold."""
 
-import numpy as np
 import pytest
 
 from mars2d.core.materials import GRAVITY
@@ -15,17 +14,11 @@ def wrong(predictions):
     return [p for p in predictions.values() if not p.ok]
 
 
-@pytest.mark.parametrize("options", [{}, {"extra": 0}, {"extra": 3}, {"force": 2}, {"mass": 1}])
+@pytest.mark.parametrize("options", [{"extra": 0}, {"extra": 3}, {"force": 2}, {"mass": 1}])
 def test_head_on(options):
     _, predictions = predicted("head_on", **options)
     assert not wrong(predictions)
     assert len(predictions) == 8
-
-
-def test_head_on_equals_do_not_drift_at_any_time():
-    record, _ = predicted("head_on")
-    middle = record.pose[:, :2, :2].mean(axis=2) - record.pose[0, :2, :2].mean(axis=1)
-    assert np.abs(middle).max() < 1e-9
 
 
 @pytest.mark.parametrize("mu", [0.3, 0.4, 0.49, 0.5, 0.509, 0.51, 0.6, 0.7])

@@ -12,10 +12,8 @@ pytestmark = [pytest.mark.slow, pytest.mark.nightly]
 @pytest.mark.parametrize(
     ("name", "options"),
     [
-        ("braitenberg", {}),
         ("braitenberg", {"gain": 12.0}),
         ("braitenberg", {"base": 8.0}),
-        ("wall_follower", {}),
         ("wall_follower", {"damping": 0.6}),
         ("wall_follower", {"damping": 1}),
         ("wall_follower", {"damping": 1.5}),
@@ -23,7 +21,6 @@ pytestmark = [pytest.mark.slow, pytest.mark.nightly]
         ("obstacle_avoidance", {"stop_time": 30.0}),
         ("obstacle_avoidance", {"stop_time": 20.0, "robots": 40}),
         ("obstacle_avoidance", {"stop_time": 20.0, "horizon": 0.2}),
-        ("dead_reckoning", {}),
         ("dead_reckoning", {"drift": 0.002}),
     ],
 )

@@ -24,9 +24,8 @@ def costs(record, rows):
     return [voronoi.of(record.frame(row)).cost for row in rows]
 
 
-@pytest.mark.parametrize("holonomic", [pytest.param(False, marks=pytest.mark.nightly), True])
-def test_in_a_square_the_cost_never_rises_and_robots_end_at_their_centroids(holonomic):
-    record, found = predicted("coverage_square", holonomic=holonomic)
+def test_in_a_square_the_cost_never_rises_and_robots_end_at_their_centroids():
+    record, found = predicted("coverage_square", holonomic=True)
     assert [each.name for each in found.values() if not each.ok] == []
     assert found["largest rise of H"].measured == 0.0
     assert found["farthest from its centroid"].measured < 1e-3

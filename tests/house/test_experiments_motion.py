@@ -8,8 +8,6 @@ from scipy.optimize import brentq
 
 import mars2d
 from mars2d import Robot, Scenario, World
-from mars2d.addons import FieldOfView
-from mars2d.core.scene import Scene
 from mars2d.scenario.experiment import open_module
 from tests.worlds import predicted
 
@@ -131,7 +129,7 @@ def test_a_neighbour_is_in_view_when_it_is_near_or_ahead():
 # -- formation ----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("options", [{}, {"shape": "circle"}, {"shape": "row", "gain": 0.3}])
+@pytest.mark.parametrize("options", [{"shape": "circle"}, {"shape": "row", "gain": 0.3}])
 def test_what_is_off_the_formation_fades_at_the_rate_of_the_second_eigenvalue(options):
     record, checks = predicted("formation", **options)
     (check,) = checks.values()
@@ -156,16 +154,3 @@ def test_a_ring_that_is_cut_open_is_slower_to_form():
     gone = 0.15 * (2 - 2 * np.cos(pi / 6)) * 0.1  # of what is off, after 0.1 s
     assert check.predicted == pytest.approx(-np.log(1 - gone) / 0.1)
     assert check.ok
-
-
-# -- fields of view -----------------------------------------------------------------------------
-
-
-def fields(*sensors, named=None):
-    robot = Robot(pose=(1, 0, 0), sensors=list(sensors))
-    lamp = mars2d.addons.Beacon(at=(0, 2), name="lamp")
-    scene = Scene()
-    view = FieldOfView(sensors=named)
-    world = World(Scenario(robots=[robot], addons=[view, lamp]))
-    view.draw(scene, world.frame)
-    return scene.shapes

@@ -61,16 +61,6 @@ def test_the_floor_is_30_by_20_metres_and_its_doors_are_open():
 # -- path_planning --------------------------------------------------------------------------------
 
 
-def test_two_robots_arrive_and_the_third_is_stuck_where_theory_puts_the_minimum(planned):
-    record, predictions = planned
-    assert [p for p in predictions.values() if not p.ok] == []
-    ways = record.scenario.addons[1]
-    assert ways.of(record.frame(-1)) == (6, 5, 4)
-    assert predictions["robot2 is stuck at x"].predicted == pytest.approx(21.561, abs=1e-3)
-    assert hypot(*(record.pose[-1, :2, 2] - [21.561, 14.326])) < 0.01
-    assert not record.command[-1].any()
-
-
 def test_the_predicted_minimum_is_one_of_the_potential_found_without_forces(planned):
     """Of the potential alone, by a simplex that knows neither the force nor the run."""
     record, predictions = planned
@@ -84,14 +74,6 @@ def test_the_predicted_minimum_is_one_of_the_potential_found_without_forces(plan
     assert found.x == pytest.approx(stuck, abs=1e-6)
     around = [(stuck[0] + 0.01 * np.cos(a), stuck[1] + 0.01 * np.sin(a)) for a in range(7)]
     assert all(field.potential(at, goal) > field.potential(stuck, goal) for at in around)
-
-
-@pytest.mark.parametrize("detour", [(22, 9.8), (24, 10)])
-def test_a_waypoint_by_the_door_frees_the_third(detour):
-    record, predictions = predicted("path_planning", detour=detour)
-    assert record.scenario.addons[1].of(record.frame(-1)) == (6, 5, 6)
-    assert [p for p in predictions.values() if not p.ok] == []
-    assert "robot2 is stuck at x" not in predictions
 
 
 def test_the_numbers_of_the_model_answer_on_walls_and_doors(planned):

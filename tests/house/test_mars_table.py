@@ -153,9 +153,3 @@ def test_what_stands_beside_marss_words_works_as_written():
     assert (red, blue) == (made('Robot(color="r")').color, Robot(color="b").color)
     square = [(0, 0), (0, 1), (1, 1), (1, 0)]
     assert Scenario(workspace=[*square, (0, 0)]).workspace == Scenario(workspace=square).workspace
-
-
-def test_the_outline_in_matlab_closes_what_it_opens():
-    (block,) = re.findall(r"```matlab\n(.*?)```", PAGE.read_text(encoding="utf-8"), flags=re.S)
-    opened = re.findall(r"^ *(?:if|for)\b", block, flags=re.M)
-    assert len(opened) == len(re.findall(r"^ *end$", block, flags=re.M)) == 4

@@ -72,13 +72,13 @@ NAMES = ["os.system", "trap:Trap", "trap"]
 
 @each_case("name", NAMES)
 def test_a_record_names_no_code(name, marker, tmp_path) -> None:
-    """Neither as the type of a part, nor as a function, nor as what another package ships."""
+    """Neither as the type of a part, nor of a part of the user's own, nor as a function."""
     text, good = as_text(of_record(everything())), everything().save(tmp_path / "good.npz")
     places = ([], ["robots", 0], ["robots", 0, "drive"], ["robots", 0, "sensors", 0], ["addons", 0])
     for place in places:
         for change in (
             {"type": name},
-            {"type": name, "own": "sensor", "from": name.partition(".")[0]},
+            {"type": name, "own": "sensor"},
             {"type": "Robot", "controller": name, "shape": {"type": name}},
         ):
             header = json.loads(text)

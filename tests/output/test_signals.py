@@ -14,7 +14,7 @@ from matplotlib.legend import Legend
 import mars2d
 from mars2d import Car, Holonomic, InputError, Record, Robot, Scenario
 from mars2d.bodies.props import Puck
-from mars2d.output.signals import as_csv, signals, signals_of_bodies
+from mars2d.output.signals import signals, signals_of_bodies
 from mars2d.record.contact import net_forces
 from mars2d.sensors import Bumper, Ground, Imu, LineCamera, Proximity, RangeFinder
 from tests.cases import each_case
@@ -270,19 +270,3 @@ def test_signals_of_bodies_are_of_robots_and_props_alike(record):
         signals_of_bodies(record, "distance.an", (1,))
     with pytest.raises(InputError, match="a body other than ann"):
         signals_of_bodies(record, "distance.ann", (0,))
-
-
-def test_signals_as_a_table(record):
-    found = [
-        *signals_of_bodies(record, "speed", (0, 1)),
-        *signals_of_bodies(record, "momentum", ()),
-    ]
-    lines = as_csv(record, found).splitlines()
-    assert lines[0].split(",") == [
-        "time [s]", "speed of ann [m/s]", "speed of bob [m/s]", "momentum: x [N s]",
-        "momentum: y [N s]", "angular momentum: about the origin [N m s]",
-    ]  # fmt: skip
-    assert len(lines) == len(record) + 1
-    last = [float(number) for number in lines[-1].split(",")]
-    assert last[0] == record.time[-1]
-    assert last[3:5] == record.momentum.total[-1].tolist()

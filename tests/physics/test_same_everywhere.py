@@ -175,7 +175,6 @@ def test_a_match_of_a_tournament_whose_laws_are_isolated(digest, tmp_path):
         {"hunter": "hunter.py", "prey": "prey.py"},
         seeds=[SEED],
         workers=1,
-        replays=False,
         out=tmp_path,
         show_progress=False,
     )

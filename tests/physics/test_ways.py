@@ -234,3 +234,38 @@ def test_a_robot_that_is_still_pushed_when_its_driver_lets_go_holds_its_place():
         world.step([[0, -0.2], [0, 0]])
     assert world.contacts[0]["impulse"] / 0.1 == pytest.approx(4, rel=1e-6)
     assert np.abs(world.pose - place).max() < 1e-6
+
+
+@each_case("sampling_time", [0.1, 0.01, 0.005])
+def test_a_drive_gives_no_more_than_its_force_while_it_brakes_a_robot_that_is_hit(sampling_time):
+    for k in range(12):
+        drive = Unicycle(max_force=3.0, max_torque=0.2)
+        robot = Robot(pose=(1, 0, 0.25 * k), mass_offset=0.06, restitution=0.3, drive=drive)
+        box = Box(
+            pose=(0, 0, 2.5), velocity=(1.2, 0, 0), restitution=0.3, ground_friction=0.0
+        )  # fmt: skip
+        world = at_rest(world_of([robot], [box], sampling_time=sampling_time, stop_time=1.5))
+        given = np.diff(world.record.momentum.linear.sum(axis=2), axis=0)
+        assert np.linalg.norm(given, axis=1).max() <= 3.0 * sampling_time * (1 + 1e-6)
+
+
+def test_a_prop_that_is_pushed_off_its_middle_goes_as_by_much_finer_steps():
+    floor = {"friction": 0.1, "ground_friction": 0.0}
+    pushes = {
+        "box": ([0.53, -0.06], {}, Box(pose=(0.5, -0.063, 2.4), restitution=0.3, **floor)),
+        "flat": ([0.58, -0.05], {}, Box(pose=(0.5, -0.1, 0.31), **floor)),
+        "puck": ([0.52, 0.02], {"grip": 0.6}, Puck(pose=(0.5, 0.057, 0), **floor)),
+    }
+    for name, (command, fields, prop) in pushes.items():
+        robot = Robot(friction=0.1, drive=Unicycle(max_force=3.0, force_limited=True, **fields))
+
+        def end_of(sampling_time, max_overlap, robot=robot, prop=prop, command=command):
+            world = world_of(
+                [robot], [prop], sampling_time=sampling_time, stop_time=2.0,
+                max_overlap=max_overlap,
+            )  # fmt: skip
+            while not world.over:
+                world.step(np.array([command]).T)
+            return world.prop_pose[:2, 0]
+
+        assert np.linalg.norm(end_of(0.1, 1e-3) - end_of(0.001, 1e-4)) < 4e-3, name

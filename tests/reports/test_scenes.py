@@ -1,6 +1,5 @@
 """The scenes of the benchmarks, the gaps between their bodies, and the bare loop beside them."""
 
-import json
 import subprocess
 import sys
 from pathlib import Path
@@ -8,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from gaps import Gaps
-from PIL import Image
 from scenes import FORCE, LEVER, SCENES, TORQUE, Scene
 from worlds import SETTINGS, deepest, world_of
 from yardstick import Bare
@@ -143,25 +141,3 @@ def script(name, *arguments, cwd):
     done = subprocess.run(command, cwd=cwd, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     return done.stdout
-
-
-@pytest.mark.nightly
-def test_the_growth_is_measured_fitted_and_drawn(tmp_path):
-    arguments = ("--sizes", 4, 16, "--time", 0, "--json", "a.json", "--figure", "a.png")
-    printed = script("growth.py", *arguments, cwd=tmp_path)
-    assert "default: time grows with n to the power " in printed
-    result = json.loads((tmp_path / "a.json").read_text())
-    rows = result["rows"]
-    assert [(row["n"], row["setting"]) for row in rows] == [
-        (4, "default"), (16, "default"), (4, "loose"), (16, "loose"), (4, "crates"), (16, "crates"),
-    ]  # fmt: skip
-    slope = np.log(rows[1]["tick_s"] / rows[0]["tick_s"]) / np.log(4)
-    assert result["exponents"]["default"] == pytest.approx(slope)
-    for row in rows:
-        assert row["real_time"] == pytest.approx(0.1 / row["tick_s"])
-        crates = 24 * 1.5 if row["setting"] == "crates" else 0
-        needed = 48 + 16 / row["n"] + crates + row["bytes_of_contacts"]
-        assert row["bytes_needed"] == pytest.approx(needed)
-    with Image.open(tmp_path / "a.png") as picture:
-        assert picture.size == (1210, 462)
-        assert len(picture.getcolors()) <= 128

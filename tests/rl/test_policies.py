@@ -49,7 +49,7 @@ def policy(spaces, tmp_path):
 
 def test_a_policy_commands_shares_of_the_bounds_that_it_was_learned_with(policy):
     record = mars2d.run("corner_game", stop_time=2, options={"pursuer": str(policy)})
-    assert record.command[:, :, 0] == pytest.approx(np.tile([0.225, 0.0], (21, 1)))
+    assert record.command[:, :, 0] == pytest.approx(np.tile([0.2, 0.0], (21, 1)))
 
 
 def test_a_policy_decides_as_the_environment_asked_it(spaces, policy):

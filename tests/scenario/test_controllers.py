@@ -17,7 +17,6 @@ from mars2d.scenario.controllers import (
     FollowWaypoints,
     Wander,
 )
-from mars2d.scenario.python_file import as_python
 from mars2d.scenario.registry import members
 from mars2d.sensors import Proximity, RangeFinder, SonarRing
 from tests.cases import each_case
@@ -205,14 +204,11 @@ def _all_laws():
     )  # fmt: skip
 
 
-def test_scenario_files_python_files_and_records_keep_all_ready_made_laws(tmp_path):
+def test_scenario_files_and_records_keep_all_ready_made_laws(tmp_path):
     scenario = _all_laws()
     assert save_scenario(scenario, tmp_path / "laws.toml") == ()
     assert load_scenario(tmp_path / "laws.toml") == scenario
-    (tmp_path / "laws.py").write_text(as_python(scenario))
-    runs = [
-        mars2d.run(source) for source in (scenario, tmp_path / "laws.toml", tmp_path / "laws.py")
-    ]
+    runs = [mars2d.run(source) for source in (scenario, tmp_path / "laws.toml")]
     assert len({run.digest for run in runs}) == 1
     runs[0].save(tmp_path / "run.npz")
     assert mars2d.load(tmp_path / "run.npz").scenario == scenario
@@ -244,6 +240,7 @@ def test_a_law_of_ones_own_may_derive_from_controller_and_is_named_as_code(tmp_p
     record = mars2d.run(scenario)
     assert record.pose[-1, 0, 0] == pytest.approx(0.25)
     assert save_scenario(scenario, tmp_path / "own.toml") == ("law Ahead",)
-    assert "# This is code, which is not written down: law Ahead" in as_python(scenario)
+    kept = (tmp_path / "own.toml").read_text()
+    assert "# law: Ahead can't be written down" in kept
     record.save(tmp_path / "own.npz")
     assert mars2d.load(tmp_path / "own.npz").scenario.robots[0].controller is None

@@ -110,11 +110,6 @@ def test_the_nearest_of_many_are_those_of_sorting_all(where, count):
     assert Nearest(count).of(PLACES[where]) == brute_nearest(PLACES[where], count)
 
 
-@each_case("rule", [Everyone(), Within(1), Nearest(1), Delaunay(), Graph([[0]])])
-def test_one_robot_alone_has_no_neighbours(rule):
-    assert lists(rule.of(np.zeros((2, 1)))) == [[]]
-
-
 # -- Delaunay ---------------------------------------------------------------------------------
 
 
@@ -243,25 +238,7 @@ def test_a_graph_may_be_given_by_its_edges():
     assert Graph((2, [])).of(np.zeros((2, 2))) == [[], []]
 
 
-def test_graphs_of_networkx_are_the_matrices_that_it_makes_of_them_directed_or_not():
-    nx = pytest.importorskip("networkx")
-    assert Graph(nx.DiGraph([(0, 1), (0, 2)])).of(np.zeros((2, 3))) == [[1, 2], [], []]
-    for graph in (nx.cycle_graph(7), nx.gnp_random_graph(9, 0.4, seed=2, directed=True)):
-        matrix = nx.to_numpy_array(graph, nodelist=range(len(graph)))
-        assert Graph(graph) == Graph(matrix)
-
-
-@each_case("edge", ["ab", (1, 2), (0, 2)])
-def test_other_nodes_than_the_robots_indices_are_refused(edge):
-    nx = pytest.importorskip("networkx")
-    with pytest.raises(InputError, match=r"^Graph.graph: its nodes are .*expected 0, 1, 2, ..., "):
-        Graph(nx.Graph([tuple(edge)]))
-
-
-NOT_A_GRAPH = (
-    "expected an adjacency matrix (n, n) of numbers, a networkx graph of the nodes 0 to n - 1, "
-    "or a pair (n, edges)"
-)
+NOT_A_GRAPH = "expected an adjacency matrix (n, n) of numbers, or a pair (n, edges)"
 
 
 @each_case(
@@ -369,49 +346,7 @@ def test_a_rule_that_returns_nonsense_is_an_error_that_points_at_it(found, messa
     assert untimed(raised.value).startswith(said)
 
 
-def test_a_rule_can_not_move_robots():
-    class Grab(Neighbourhood):
-        def of(self, position):
-            position[:] = 0
-            return [[], [], [], []]
-
-    with pytest.raises(LawError, match="read-only"):
-        listed(Grab())
-
-
-@each_case(
-    ("make", "message"),
-    [
-        (
-            lambda: Scenario(neighbours="all"),
-            "'all': expected a Neighbourhood, such as Within(2)",
-        ),
-        (lambda: Scenario(neighbours=Within), "= Within: expected an object; write Within("),
-        (lambda: Scenario(neighbours=np.eye(2)), "expected a rule; write Graph(...) of a graph"),
-        (
-            lambda: Scenario(robots=3, neighbours=Graph([[0, 1], [1, 0]])),
-            "has 2 nodes, the team 3",
-        ),
-        (lambda: Within(0), "Within.range = 0: expected a number > 0"),
-        (lambda: Nearest(0), "Nearest.count = 0: expected a whole number from 1"),
-        (Nearest, "Nearest.count is missing"),
-    ],
-)
-def test_a_rule_with_wrong_fields_is_refused(make, message):
-    with pytest.raises(InputError) as raised:
-        make()
-    assert message in str(raised.value)
-
-
 # -- in a record ------------------------------------------------------------------------------
-
-
-@each_case("rule", [Everyone(), Within(2.5), Nearest(3), Delaunay(), Graph(PATH), Graph((3, []))])
-def test_a_record_keeps_the_rule(rule, tmp_path):
-    mars2d.run(Scenario(robots=3, neighbours=rule, stop_time=0)).save(tmp_path / "run.npz")
-    record = mars2d.load(tmp_path / "run.npz")
-    assert record.scenario.neighbours == rule
-    assert record.missing == ()
 
 
 def test_a_rule_of_the_users_own_is_named_as_missing_and_everyone_stands_for_it(tmp_path):

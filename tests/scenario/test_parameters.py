@@ -12,7 +12,6 @@ from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.options import options_in_words
 from mars2d.scenario.parameters import Parameter, arguments_of
-from mars2d.scenario.python_file import as_python
 from tests.cases import each_case
 
 FILE = """
@@ -182,16 +181,6 @@ def test_a_drawn_scenario_takes_fields_and_laws_but_no_arguments_of_its_function
     assert alike(reopened.scenario, again.scenario)
     assert reopened.scenario.robots[1].controller.args == (0.9, 0.2)
     assert again.with_options(drawn.options).scenario.robots[0].mass == 1.2
-
-
-def test_python_files_have_the_values_of_laws(file, tmp_path):
-    experiment = open_experiment(file, {"laws.go.speed": 0.7, "laws.control.gain": 2})
-    written = tmp_path / "written.py"
-    written.write_text(as_python(experiment.scenario, experiment.control, tmp_path))
-    again = open_experiment(written)
-    assert again.scenario.robots[1].controller(None) == pytest.approx((0.7, 0.3))
-    assert again.control.keywords == {"gain": 2}
-    assert again.scenario.robots[0].mass == 0.9
 
 
 def test_a_record_keeps_the_options_that_its_experiment_was_opened_with(file, tmp_path):

@@ -1,10 +1,7 @@
 """Starts at random: by `random_starts`, or by a scenario function with a parameter `seed`."""
 
-import json
-import tomllib
 from itertools import combinations
 
-import jsonschema
 import numpy as np
 import pytest
 import shapely
@@ -16,9 +13,7 @@ from mars2d.bodies import Bar, Box, Rope
 from mars2d.cli import command_line as cli
 from mars2d.core.plane import lines_and_areas
 from mars2d.geometry import Disc, Polygon
-from mars2d.scenario import load_scenario, save_scenario
 from mars2d.scenario.experiment import open_experiment
-from mars2d.scenario.schema import schema
 from mars2d.scenario.starts import footprint
 from mars2d.world.timeline import Timeline
 from mars2d.world.verify import rerun
@@ -51,18 +46,6 @@ def test_a_scenario_function_gets_the_seed_of_the_run(file):
     assert start(mars2d.run(mars2d.scenario.experiment.open_module(file), seed=4)) == 4.0
 
 
-def test_who_sets_the_seed_as_an_option_has_the_same_start_with_other_luck(file):
-    record = mars2d.run(file, seed=3, options={"seed": 5})
-    assert (start(record), record.seed) == (5.0, 3)
-
-
-def test_a_function_without_such_a_parameter_is_called_without(file):
-    file.write_text(FILE.replace("seed=99", "offset=2").replace("gap * seed", "gap * offset"))
-    assert start(mars2d.run(file, seed=3)) == 2.0
-    with pytest.raises(InputError, match="there is no option 'seed'"):
-        mars2d.run(file, options={"seed": 3})
-
-
 def test_a_seed_that_can_not_be_is_refused_before_the_function_sees_it(file, capsys):
     file.write_text(
         FILE.replace("    return Scenario", "    assert False, seed\n    return Scenario")
@@ -72,24 +55,6 @@ def test_a_seed_that_can_not_be_is_refused_before_the_function_sees_it(file, cap
             mars2d.run(file, seed=seed)
     assert cli.main(["run", str(file), "--headless", "--seed", "-1"]) == cli.BAD_INPUT
     assert "seed = -1: expected a whole number" in capsys.readouterr().err
-
-
-def test_an_experiment_that_is_opened_again_keeps_the_seed(file):
-    experiment = open_experiment(file, {"gap": 2.0}, seed=3)
-    assert experiment.scenario.robots[0].pose[1] == 6.0
-    file.write_text(FILE.replace("at(0, gap", "at(1, gap"))
-    assert experiment.reopened().scenario.robots[0].pose[:2] == (1.0, 6.0)
-    assert experiment.reopened().reopened().scenario.robots[0].pose[:2] == (1.0, 6.0)
-
-
-def test_the_command_line_passes_it_on(file, tmp_path, capsys):
-    saved = tmp_path / "run.npz"
-    run = ["run", str(file), "--headless", "--json", "--seed", "4", "--record", str(saved)]
-    assert cli.main(run) == 0
-    assert start(mars2d.load(saved)) == 4.0
-    assert json.loads(capsys.readouterr().out)["seed"] == 4
-    assert cli.main([*run, "--set", "seed=6"]) == 0
-    assert start(mars2d.load(saved)) == 6.0
 
 
 # -- declared -------------------------------------------------------------------------------------
@@ -167,18 +132,6 @@ def test_a_run_is_that_of_the_record_and_is_run_again_to_the_bit(tmp_path):
     while not timeline.world.over:
         timeline.world.step()
     assert timeline.record.digest == record.digest
-
-
-def test_a_scenario_file_says_them(tmp_path):
-    scenario = crowd(robots=[Robot(name="guest")], random_starts=[RandomStarts(["guest", "crate"])])
-    save_scenario(scenario, tmp_path / "a.toml")
-    assert load_scenario(tmp_path / "a.toml") == scenario
-    first = mars2d.run(tmp_path / "a.toml", seed=2)
-    assert first.scenario.robots[0].pose == scenario.started(2).robots[0].pose
-    errors = jsonschema.Draft202012Validator(schema()).iter_errors(
-        tomllib.loads((tmp_path / "a.toml").read_text())
-    )
-    assert not [*errors]
 
 
 def test_with_no_seed_a_start_fails():

@@ -17,7 +17,6 @@ from mars2d.bodies.props import Ball, Bar, Box, Gate, Prop, Puck, Solid
 from mars2d.bodies.rigid import Inertia
 from mars2d.geometry.shapes import Compound, Disc, Polygon
 from mars2d.scenario.experiment import open_experiment
-from mars2d.scenario.options import parse_option
 from mars2d.sensors import Proximity
 from tests.cases import each_case
 from tests.worlds import ELL
@@ -336,46 +335,6 @@ def test_a_prop_of_the_users_own_is_checked_like_any_other():
 
 
 # -- options --------------------------------------------------------------------------------------
-
-
-def with_options(*options: str) -> Scenario:
-    scenario = Scenario(
-        props=[Box(pose=(1, 0)), Ball(pose=(2, 0)), Gate(pose=(0, 3))],
-        joints=[Rope(a="robot0", b="box0", length=2), Spring(a="ball1", b="box0")],
-    )
-    return open_experiment(scenario, dict(map(parse_option, options))).scenario
-
-
-def test_fields_of_props_and_joints_are_options():
-    changed = with_options("props.0.mass=2", "joints.0.length=1.5", "joints.1.stiffness=7")
-    assert changed.bodies[1].inertia.mass == 2
-    assert [changed.ties[0].length, changed.joints[1].stiffness] == [1.5, 7]
-    assert changed.props[0].name == "box0"
-
-
-def test_a_star_sets_a_field_of_all_props():
-    changed = with_options(
-        "props.*.ground_friction=0.25", "props.*.material=wood", "props.1.mass=3",
-        "props.*.height=0.01",
-    )  # fmt: skip
-    assert [prop.ground_friction for prop in changed.props] == [0.25] * 3
-    assert [prop.surface.restitution for prop in changed.props] == [0.71, 1.0, 0.71]
-    assert changed.props[1].inertia.mass == 3
-
-
-def test_options_of_props_and_joints_pass_the_same_gate():
-    for setting, message in (
-        ("props.0.mass=20", "contacts hold a ratio of at most 10"),
-        ("props.0.mass=-1", "Box.mass = -1"),
-        ("props.3.mass=1", "there is no option 'props.3': expected \\* or 0 to 2"),
-        ("props.0.radius=1", "Box has no field 'radius'"),
-        ("props.*.diameter=1", "Box has no field 'diameter'"),
-        ("joints.0.length=0.5", "start 1 m apart"),
-        ("joints.0.b=ball2", "did you mean 'ball1'"),
-        ("physics=contcat", "did you mean 'contact'"),
-    ):
-        with pytest.raises(InputError, match=message):
-            with_options(setting)
 
 
 @each_case(

@@ -1,8 +1,10 @@
 """Scenario files: what is saved comes back, what is wrong is pointed at, nothing else is raised."""
 
 import re
+import tomllib
 from pathlib import Path
 
+import jsonschema
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -10,11 +12,15 @@ from hypothesis import strategies as st
 import mars2d
 from mars2d import Addon, InputError, Robot, Scenario, Sensor
 from mars2d.addons import Density, Floor, Map
-from mars2d.bodies.props import Ball, Box, Gate
-from mars2d.cli import command_line as cli
-from mars2d.scenario import load_scenario, save_scenario
+from mars2d.bodies.props import Box
+from mars2d.scenario import load_scenario, save_scenario, serialize
+from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment
+from mars2d.scenario.schema import schema
 from tests.cases import each_case
+from tests.worlds import without_laws
+
+CHECKER = jsonschema.Draft202012Validator(schema())
 
 EVERYTHING = (Path(__file__).parent / "everything.toml").read_text(encoding="utf-8")
 
@@ -57,6 +63,20 @@ def test_all_kinds_of_parts_come_back(tmp_path):
         assert len(getattr(scenario, place)) == EVERYTHING.count(f"\n[[{place}]]\n") > 1
 
 
+@pytest.mark.slow
+@each_case("name", examples())
+def test_an_example_is_written_but_for_its_code(name, tmp_path):
+    experiment = open_experiment(name)
+    text, missing, again = saved(experiment.scenario, tmp_path, experiment.control)
+    CHECKER.validate(tomllib.loads(text))
+    kept, lost = serialize.without_code(experiment.scenario)
+    assert without_laws(again) == without_laws(kept)
+    assert set(lost) <= set(missing)
+    assert all(name in text for name in lost)
+    named = [line for line in text.splitlines() if ".py" not in line]  # paths stay whole
+    assert max(map(len, named)) <= 100
+
+
 def test_the_file_of_all_kinds_is_laid_out_as_it_is_saved(tmp_path):
     text = saved(read(tmp_path, EVERYTHING), tmp_path)[0]
     assert text == EVERYTHING.replace("everything.toml", "scene.toml")
@@ -87,26 +107,6 @@ def test_numbers_and_texts_come_back_exactly(tmp_path_factory, x, theta, mass, t
     assert repr(again.robots[0].pose) == repr(scenario.robots[0].pose)
 
 
-def test_what_is_none_but_not_by_default_comes_back(tmp_path):
-    props = [Ball(friction=None, name="none"), Gate(pose=(2, 0, 0), limits=None)]
-    scenario = Scenario(title="none", workspace=None, props=props, robots=[Robot(pose=(0, 3, 0))])
-    text, _, again = saved(scenario, tmp_path)
-    assert again == scenario
-    assert 'workspace = "none"' in text
-
-
-def test_only_what_is_not_the_default_is_written(tmp_path):
-    text = saved(Scenario(robots=[Robot(), Robot(pose=(1, 0, 0), mass=2)]), tmp_path)[0]
-    lines = [line for line in text.splitlines() if line and not line.startswith("#")]
-    assert lines == [
-        "format = 1",
-        "[[robots]]",
-        "[[robots]]",
-        "pose = [1.0, 0.0, 0.0]",
-        "mass = 2.0",
-    ]
-
-
 @each_case("image", [Floor, Density])
 def test_an_image_beside_the_file_is_found_and_named_relative_to_it(image, tmp_path, monkeypatch):
     (tmp_path / "floor.png").write_bytes(b"")
@@ -116,13 +116,6 @@ def test_an_image_beside_the_file_is_found_and_named_relative_to_it(image, tmp_p
     text, _, again = saved(scenario, tmp_path)
     assert 'image = "floor.png"' in text
     assert again == scenario
-
-
-def test_a_file_that_cannot_be_written_says_so(tmp_path):
-    with pytest.raises(InputError, match="can't be written: No such file or directory"):
-        save_scenario(Scenario(), tmp_path / "nowhere" / "scene.toml")
-    with pytest.raises(InputError, match=r"saved as \.toml, this ends in '\.yaml'"):
-        save_scenario(Scenario(), tmp_path / "scene.yaml")
 
 
 # -- laws and other code ------------------------------------------------------------------------
@@ -209,30 +202,6 @@ def test_what_people_write_is_understood(tmp_path):
         animation=mars2d.Animation(grid=False),
         props=[Box(pose=(2, 2, 0))],
     )
-
-
-def test_a_file_is_looked_for_beside_the_file_that_asks(tmp_path, monkeypatch):
-    read(tmp_path, "format = 1\ntitle = 'beside'\n")
-    (tmp_path / "asks.py").write_text(
-        "from mars2d import load_scenario\nscenario = load_scenario('scene.toml')\n"
-    )
-    monkeypatch.chdir("/")
-    assert open_experiment(tmp_path / "asks.py").scenario.title == "beside"
-
-
-def test_the_verbs_take_scenario_files(tmp_path, monkeypatch, capsys):
-    read(tmp_path, "format = 1\ncontrol = 'walk.py:team'\nstop_time = 2.0\ntitle = 'Walk'\n")
-    monkeypatch.chdir(tmp_path)
-    assert cli.main(["run", "scene.toml", "--headless", "--set", "stop_time=1"]) == 0
-    assert "Walk: finished after 1 s. 10 steps" in capsys.readouterr().out
-    assert cli.main(["check", "scene.toml"]) == 0
-    told = capsys.readouterr().out
-    assert "law team" in told
-    assert "control steps done" in told
-    assert cli.main(["run", "scen.toml", "--headless"]) == 2
-    assert "did you mean 'scene.toml'?" in capsys.readouterr().err
-    assert cli.main(["run", "scene.toml", "--headless", "--set", "stop_tim=1"]) == 2
-    assert "scene.toml: there is no option 'stop_tim'" in capsys.readouterr().err
 
 
 # -- what is wrong ------------------------------------------------------------------------------

@@ -3,22 +3,14 @@
 from __future__ import annotations
 
 import os
-import re
 import signal
-import socket
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
 import mars2d
-from mars2d.cli.arguments import workers_of
-from mars2d.cli.command_line import parser_of
-from mars2d.core.errors import InputError, MissingExtraError
-from mars2d.core.extras import pip_line
 from mars2d.scenario.examples import examples
-from mars2d.study import cluster as clusters
-from mars2d.study.cluster import cluster
 from mars2d.study.work import Failure, each_done
 
 pytest.importorskip("distributed")
@@ -76,8 +68,8 @@ def tasks(local):
 @pytest.fixture
 def executor(local):
     local.wait_for_workers(2)  # one that was killed takes a moment to come back
-    with cluster(local.scheduler_address) as executor:
-        yield executor
+    with Client(local, set_as_default=False) as client:
+        yield client
 
 
 @pytest.mark.nightly
@@ -95,14 +87,14 @@ def test_nothing_is_lost_or_counted_twice_where_a_worker_is_killed_half_way(exec
         os.kill(found[killed], 0)
 
 
-def test_a_sweep_comes_to_the_same_bytes_by_whoever_does_it(executor, local, tmp_path):
-    with Client(local, set_as_default=False) as client, ThreadPoolExecutor(2) as threads:
+def test_a_sweep_comes_to_the_same_bytes_by_whoever_does_it(executor, tmp_path):
+    with ThreadPoolExecutor(2) as threads:
         ways = {
             "one": {"workers": 1},
             "two": {"workers": 2},
             "threads": {"executor": threads},
-            "cluster": {"executor": executor},
-            "client": {"executor": client},
+            "client": {"executor": executor},
+            "its executor": {"executor": executor.get_executor(pure=False)},
         }
         for name, way in ways.items():
             grid = {"robots.*.diameter": [0.1, 0.2], "stop_time": 5}
@@ -115,52 +107,9 @@ def test_a_sweep_comes_to_the_same_bytes_by_whoever_does_it(executor, local, tmp
 def test_a_tournament_is_played_by_a_cluster(executor):
     players = sorted((examples()["sumo"].parent / "players").glob("*.py"))[:2]
     matches = mars2d.tournament(
-        "sumo", players=players, seeds=1, stop_time=2, executor=executor, replays=False
+        "sumo", players=players, seeds=1, stop_time=2, executor=executor
     ).matches
     assert [(match.steps, match.verdicts, match.error) for match in matches] == [(100, {}, "")] * 2
-
-
-def test_where_no_scheduler_answers_there_is_one_line_soon(local, monkeypatch, capfd):
-    monkeypatch.setattr(clusters, "ANSWER_TIMEOUT", 0.3)
-    with socket.socket() as closed, socket.create_server(("127.0.0.1", 0)) as silent:
-        closed.bind(("127.0.0.1", 0))
-        addresses = [f"tcp://127.0.0.1:{each.getsockname()[1]}" for each in (closed, silent)]
-        for address in [*addresses, "nonsense", "foo://somewhere:1"]:
-            with pytest.raises(InputError, match=f"^{address}: no Dask scheduler") as caught:
-                with_cluster(address)
-            assert "\n" not in str(caught.value)
-    [worker, *_] = local.scheduler_info["workers"]
-    with pytest.raises(InputError, match="a Dask worker; expected the address of its scheduler"):
-        with_cluster(worker)
-    assert capfd.readouterr() == ("", "")
-
-
-def with_cluster(address):
-    with cluster(address):
-        pass
-
-
-def test_without_dask_the_line_is_printed_that_installs_it(monkeypatch):
-    monkeypatch.setitem(sys.modules, "distributed", None)
-    with pytest.raises(MissingExtraError, match=re.escape(pip_line("cluster")) + "$"):
-        with_cluster("tcp://10.0.0.5:8786")
-
-
-def chosen(*words):
-    return workers_of(parser_of("sweep").parse_args(["walk.py", *words]))
-
-
-def test_the_command_line_chooses_who_does_the_runs(local):
-    with chosen() as (executor, workers):
-        assert (executor, workers) == (None, None)
-    with chosen("--workers", "3") as (executor, workers):
-        assert (executor, workers) == (None, 3)
-    with chosen("--cluster", local.scheduler_address) as (executor, workers):
-        assert workers is None
-        assert list(each_done(abs, [-3], executor)) == [(0, 3)]
-    both = chosen("--workers", "2", "--cluster", "tcp://10.0.0.5:8786")
-    with pytest.raises(InputError, match="give it or --cluster"), both:
-        pass
 
 
 def test_a_task_that_ends_each_of_its_workers_is_the_one_that_fails(executor, tasks):

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mars2d import InputError
-from mars2d.study.plan import Plan, parse_values, seeds_of, settings_of
+from mars2d.study.plan import Plan, parse_values, settings_of
 from mars2d.study.table import cell, value_in
 from tests.cases import each_case
 
@@ -81,12 +81,6 @@ def test_a_plan_is_the_product_with_the_last_setting_quickest_and_seeds_inside()
     assert runs[:4] == [(1, "x", 5), (1, "x", 6), (1, "y", 5), (1, "y", 6)]
     assert len(runs) == len(plan) == 8
     assert [*plan.probes()] == [{"a": 1, "b": "x"}, {"a": 2, "b": "x"}, {"a": 1, "b": "y"}]
-
-
-def test_seeds_are_counted_from_the_first_one_or_listed():
-    assert seeds_of(3) == (0, 1, 2)
-    assert seeds_of(2, 10) == (10, 11)
-    assert seeds_of([7, np.int64(3)]) == (7, 3)
 
 
 plain = st.one_of(

@@ -109,7 +109,7 @@ def test_of_two_words_one_is_drawn_of_three_all():
 
 def test_more_than_a_figure_can_show_is_an_error_before_anything_is_run():
     values, numbers = {"a": [1, 2], "b": [*range(9)], "c": [*range(9)]}, lambda *_: 1.0
-    with pytest.raises(InputError, match=r"9 of b x 9 of c are too many lines: at most 8 in a pan"):
+    with pytest.raises(InputError, match=r"9 of b x 9 of c are too many lines: at most 8; draw"):
         plot_study(study(values, numbers, seeds=1))
     with pytest.raises(InputError, match="no such setting; did you mean 'gain'"):
         plot_study(study({"gain": [1, 2]}, numbers), x="gian")

@@ -13,8 +13,6 @@ import pytest
 import mars2d
 from mars2d import InputError, Robot, Scenario
 from mars2d.cli.command_line import main
-from mars2d.core.files import growing
-from mars2d.study.run import TRIALS
 from mars2d.study.table import Table
 from tests.cases import each_case
 from tests.processes import PATIENCE, wait_until
@@ -90,13 +88,6 @@ def test_each_row_is_the_run_that_mars2d_run_makes(here):
     assert len({result.code for result in table.results}) == 1
 
 
-def test_each_point_has_the_same_seeds(here):
-    points = sweep({"gain": [0.5, 1.0]}, [4, 2]).points()
-    assert {p: [r.seed for r in results] for p, results in points.items()} == {
-        (0.5,): [4, 2], (1.0,): [4, 2]
-    }  # fmt: skip
-
-
 def test_measures_are_the_files_the_ones_built_in_or_functions_given(here):
     def here_alone(record):
         return len(record)
@@ -140,39 +131,18 @@ def test_a_run_that_takes_too_long_is_a_row_that_names_the_line(here):
     assert (ends.error, bool(ends.digest)) == ("", True)
 
 
-def test_units_are_stated_with_the_sweep_or_with_its_table(here, capsys):
-    words = ["--set", "gain=1", "--measure", "far", "--workers", "1", "--out", "r.csv"]
-    assert main(["sweep", "drift.py", *words, "--unit", "far=m"]) == 0
-    assert main(["sweep", "r.csv", "--unit", "gain=1/s"]) == 0
-    first, again = capsys.readouterr().out.split("table:  r.csv\n", 1)
-    assert "far [m]" in first
-    assert "gain = 1 1/s" in again
-    assert "far [m]" in again
-    assert sweep({"gain": [1]}, 1, out="r.csv", units={"far": "m"}).units == {"far": "m"}
-
-
 # -- what stops after a few runs -------------------------------------------------------------------
 
 
-@pytest.mark.slow
-@each_case("workers", [["--workers", "1"], ["--workers", "2"]])
-def test_a_sweep_whose_every_run_fails_stops_with_the_reason_and_exit_code_1(here, workers, capsys):
+def test_a_sweep_whose_every_run_fails_has_the_reason_and_exit_code_1(here, capsys):
     (here / "drift.py").write_text(DRIFT.replace("gain * robot", "1 / 0 * robot"))
-    grid = ["--set", "gain=0.1:1:20", "--measure", "far", "--out", "r.csv"]
-    assert main(["sweep", "drift.py", *grid, *workers]) == 1
-    out, errors = capsys.readouterr()
-    table = Table.load("r.csv")
-    assert out == ""
-    assert TRIALS <= len(table) == len(table.failed) < 20
-    assert len({result.options["gain"] for result in table.results}) == len(table)
-    assert errors.splitlines()[-1] == (
-        f"mars2d: {len(table)} of {len(table)} runs failed, so the other {20 - len(table)} are not "
-        "made; row 1, gain = 0.1, seed 0: drift.py, line 10: law raised ZeroDivisionError: "
-        "division by zero (robot0, at 0 s)"
+    grid = ["--set", "gain=0.1:1:3", "--measure", "far", "--out", "r.csv", "--workers", "1"]
+    assert main(["sweep", "drift.py", *grid]) == 1
+    assert capsys.readouterr().err == (
+        "mars2d: all runs failed: drift.py, line 10: law raised ZeroDivisionError: "
+        "division by zero (robot0, at 0 s)\n"
     )
-    made = runs(here)
-    assert main(["sweep", "drift.py", *grid, *workers]) == 1  # its rows say so already
-    assert runs(here) == made
+    assert len(Table.load("r.csv").failed) == 3
 
 
 # -- records that are kept -------------------------------------------------------------------------
@@ -289,12 +259,6 @@ def test_a_torn_line_is_run_again(here):
     assert runs(here) == 4
 
 
-def test_a_file_is_written_by_one_at_a_time(here):
-    with growing(here / "r.csv"), pytest.raises(InputError, match="another process is writing"):
-        sweep(out="r.csv")
-    assert len(sweep(out="r.csv")) == 2
-
-
 def test_rows_with_errors_are_run_again_only_if_asked(here):
     law = 'return (1 / 0 if Path("bad").exists() and robot.pose[2] else 0.1), 0.0'
     (here / "drift.py").write_text(DRIFT.replace("return gain * robot.rng.uniform(), 0.0", law))
@@ -394,18 +358,6 @@ def test_interrupted_and_killed_it_goes_on_and_the_file_is_that_of_one_worker(he
     assert (here / "r.csv").read_bytes() == (here / "one.csv").read_bytes()
 
 
-def test_a_row_is_run_again_alone(here, capsys):
-    sweep({"gain": [0.5, 1.0]}, 2, ["far", "word"], out="sweep.csv")
-    capsys.readouterr()
-    assert main(["sweep", "--row", "3", "--view", "--html", "run.html", "--record", "run.npz"]) == 0
-    out, errors = capsys.readouterr()
-    assert out.startswith("row 3 of sweep.csv: drift.py, gain = 1.0, seed 0\n")
-    assert out.endswith(", the same\nrecord: run.npz\npage:   run.html\n")
-    assert "there is no display, so this runs without a window" in errors
-    assert mars2d.load("run.npz").digest == Table.load("sweep.csv").results[2].digest
-    assert (here / "run.html").stat().st_size > 10_000
-
-
 def test_a_table_that_is_there_is_summed_up_compared_and_drawn(here, capsys):
     sweep({"gain": [0.5, 1.0]}, 3, out="r.csv")
     before = runs(here)
@@ -432,9 +384,8 @@ def test_ctrl_c_in_python_leaves_the_rows_that_were_made(here):
     with pytest.raises(KeyboardInterrupt) as caught:
         sweep({"gain": [0.5, 1.0]}, 5, measures=["far", _interrupting])
     made = [(result.options["gain"], result.seed) for result in caught.value.table.results]
-    order = [(0.5, 0), (0.5, 2), (0.5, 4), (1.0, 1), (1.0, 4), (0.5, 1)]  # the trials come first
-    assert 1 <= len(made) <= 6  # the main thread may be behind the rows that are made
-    assert made == sorted(order[: len(made)])
+    assert 1 <= len(made) <= 4  # the main thread may be behind the rows that are made
+    assert made == [(0.5, seed) for seed in range(len(made))]
     assert str(caught.value) == f"{len(made)} of 10 runs were made"
 
 
@@ -461,9 +412,4 @@ def test_a_notebook_shows_a_bar_and_its_functions_go_to_processes(here):
     nbclient.NotebookClient(notebook, timeout=PATIENCE).execute()
     *shown, table = notebook.cells[0].outputs
     assert "0/4 [" in str(shown)
-    assert "Table of drift.py: 4 runs" in table["data"]["text/html"]
-
-
-def test_a_pipe_gets_no_bar(here, capfd):
-    sweep({"gain": [0.5, 1.0]}, 2)
-    assert capfd.readouterr() == ("", "")
+    assert "Table of drift.py: 4 runs" in table["data"]["text/plain"]

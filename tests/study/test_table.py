@@ -52,14 +52,6 @@ def test_words_that_a_spreadsheet_would_run_have_a_quote_and_come_back_as_they_w
     assert not any(row[k][:1] in ("=", "+", "-", "@") for row in rows for k in (5, 6, -1))
 
 
-def test_pandas_reads_the_file_without_options(path):
-    pandas = pytest.importorskip("pandas")
-    frame = pandas.read_csv(TABLE.save(path))
-    assert frame["time"].tolist()[::2] == [0.1 + 0.2, 3.0]
-    assert frame["time"].isna().tolist() == [False, True, False]
-    assert frame["error"][1] == 'a.py, line 3: "no"'
-
-
 @each_case(
     "data, said",
     [

@@ -169,16 +169,15 @@ def test_points_of_one_against_the_other_do_not_count_what_has_no_result():
 # -- in words --------------------------------------------------------------------------------------
 
 
-def test_the_text_has_tables_points_of_pairings_rounds_and_faults():
+def test_the_text_has_tables_points_of_pairings_and_faults():
     text = league_text(
         tournament_of(
             [
-                played(1, "a", "x", "pursuer", 2.5, options={"mu": 0.8}),
-                played(2, "c", "x", "evader", options={"mu": 0.8}, verdicts=SLOW),
-                played(3, "a", "x", "pursuer", 3.5, options={"mu": 0.9}),
-                played(4, "c", "x", "evader", options={"mu": 0.9}, verdicts=SLOW),
-            ],
-            ("mu",),
+                played(1, "a", "x", "pursuer", 2.5),
+                played(2, "c", "x", "evader", verdicts=SLOW),
+                played(3, "a", "x", "pursuer", 3.5),
+                played(4, "c", "x", "evader", verdicts=SLOW),
+            ]
         )
     )
     assert (
@@ -195,11 +194,6 @@ Points of each pursuer against each evader:
 pursuer \\ evader  x
 a                 2
 c                 0
-
-points with  mu = 0.8  mu = 0.9
-a                   1         1
-c                   0         0
-x                   1         1
 
 c forfeits: slow in 2 matches, first in match 2: c.py, line 7: no command after 1 s"""
     )

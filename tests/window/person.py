@@ -32,13 +32,13 @@ REPEAT_DELAY, REPEAT_INTERVAL = 0.4, 0.06
 MODIFIERS = {"shift": pygame.KMOD_LSHIFT, "ctrl": pygame.KMOD_LCTRL}
 KEYS = {
     "Return": "\r", "Escape": "\x1b", "BackSpace": "\b", "Tab": "\t", "Delete": "\x7f",
-    "space": " ", "plus": "+", "minus": "-", "equal": "=", "period": ".", "KP_2": "2",
+    "space": " ", "plus": "+", "minus": "-", "equal": "=", "period": ".", "comma": ",",
     "KP_Add": "+",
 }  # fmt: skip
 """What keys with a name write."""
 NAMES = {
     "Next": "page down", "Prior": "page up", "plus": "=", "minus": "-", "equal": "=", "period": ".",
-    "KP_2": "[2]", "KP_Add": "[+]",
+    "comma": ",", "KP_Add": "[+]",
 }  # fmt: skip
 """What pygame calls keys whose names differ by more than the case."""
 
@@ -196,6 +196,12 @@ class Person:
             for each in modifiers:
                 self._keyup(each)
 
+    def steps(self, count):
+        """Go on by steps, or back for a negative number, as by so many presses of an arrow."""
+        row, player = self.state["row"] + count, self.shown.player
+        player.step(count) if count > 0 else player.back(-count)
+        self.until(lambda s: s["row"] == row)
+
     def type(self, text):
         """Write a text."""
         named = {" ": "space", ".": "period", "-": "minus"}
@@ -242,10 +248,6 @@ class Person:
         """Click a row of the panel."""
         self.until(lambda s: title in s["panel"])
         self.do("mousemove", *self.state["panel"][title], "click", 1)
-
-    def sign(self, sign, title):
-        """Click + or - in a row of the panel."""
-        self.do("mousemove", *self.state["signs"][f"{sign} {title}"], "click", 1)
 
     def entry(self, title):
         """Click an entry of the open menu."""

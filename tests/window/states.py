@@ -102,7 +102,6 @@ def of_run(window):
     banner = window._ending.banner()
     scopes, plots = window.scopes, window.scopes._plots
     corner = scopes._place.topleft
-    on_scopes = scopes._buttons.places | {e.signal.name: e.remove.move(corner) for e in plots}
     return {
         "time": round(frame.time, 3),
         "row": source.row,
@@ -117,8 +116,6 @@ def of_run(window):
         "branches": 0 if timeline is None else len(timeline.branches),
         "marks": {} if timeline is None else {k: [*v] for k, v in marks_of(window).items()},
         "bar": [round(bar.x_of(0), 1), round(bar.x_of(source.newest), 1), bar._line.centery],
-        "span": [*bar.span],
-        "show_all": bar._all.center,
         "slider": [slider._line.left, slider._line.right, slider._line.centery],
         "robots": seen.pose.T.round(4).tolist(),
         "props": seen.prop_pose.T.round(4).tolist(),
@@ -144,12 +141,10 @@ def of_run(window):
         "closes": {name: place.center for name, place in window.dock.closes.items()},
         "scopes": {trace.name: [*trace.bodies] for trace in window.scopes.traces},
         "areas": {each.signal.name: [*each.area.move(corner)] for each in plots},
-        "on_scopes": {name: place.center for name, place in on_scopes.items()},
         "panels": {name: [*plate] for name, plate in window.dock.plates.items()},
         "plot": [*window.layout.plot],
         "sliders": sliders_of(window.parameters) if window.parameters.is_open else {},
         "predictions": predictions_of(window._predictions),
-        "loop": player.loop,
         "filming": window.saver._film is not None,
         "game": None if window.game is None else game_of(window),
         "editor": None if window.editor is None else editor_of(window.editor),
@@ -220,7 +215,6 @@ def of_comparison(window):
         "collisions": trio.collisions(player.frame.time),
         "scale": round(window.viewpoint.camera.scale, 3),
         "bar": [round(bar.x_of(0), 1), round(bar.x_of(trio.newest), 1), bar._line.centery],
-        "span": [*bar.span],
         "arenas": {mode: plot.center for mode, plot in window.plots.items()},
         "graph": [*window.plot.area],
         "buttons": {name: place.center for name, place in window.toolbar.places.items()},
@@ -262,7 +256,6 @@ def of_editor(editor):
         "idle": editor.properties.idle(draft),
         "panel": {title: place.center for title, place in editor.panel.places.items()},
         "rows": [[row.title, row.value] for row in editor.properties.rows()],
-        "signs": {title: place.center for title, place in editor.panel.signs.items()},
         "menu": {title: place.center for title, place in editor.menu.places.items()},
         "chosen": (editor.menu if editor.menu.is_open else editor.panel).chosen,
         "focused": editor.panel.focused,

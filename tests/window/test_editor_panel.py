@@ -3,7 +3,6 @@
 import pytest
 
 import mars2d
-from mars2d.addons import Map
 from mars2d.bodies.joints import Rope
 from mars2d.bodies.props import Box
 from mars2d.scenario.controllers import FollowWaypoints, Wander
@@ -26,7 +25,7 @@ def chosen(open_editor, scenario, x=0, y=0, **options):
 # -- laws ------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", ["ByHand", "Wander", "FollowWall"])
+@pytest.mark.parametrize("name", ["ByHand", "FollowWall"])
 def test_a_law_is_chosen_from_the_list_with_the_sensors_that_it_needs(open_editor, name):
     hands, kind = chosen(open_editor, team((0, 0))), members("controllers")[name]
     assert hands.state["idle"] == {"0": "a law"}
@@ -80,14 +79,9 @@ def test_a_law_comes_from_a_file_and_is_saved_by_its_name(open_editor, tmp_path)
     hands.until(lambda s: s["laws"] == [None] and s["idle"] == {"0": "a law"})
 
 
-def test_the_fields_of_a_law_are_stepped_typed_and_chosen(open_editor):
+def test_the_fields_of_a_law_are_typed_and_chosen(open_editor):
     robot = Robot(diameter=0.6, controller=Wander(), sensors=Wander.needs)
     hands = chosen(open_editor, Scenario(robots=[robot]))
-    hands.until(lambda s: "+ speed" in s["signs"])
-    hands.sign("+", "speed")
-    hands.until(lambda s: s["laws"] == ["Wander(speed=0.35)"])
-    hands.sign("-", "speed")
-    hands.until(lambda s: s["laws"] == ["Wander()"])
     hands.row("turn")
     hands.fill("-1")
     assert "Wander.turn = -1: expected a number > 0" in hands.state["error"]
@@ -109,8 +103,6 @@ def test_mass_friction_and_colour_of_several_bodies_are_set_at_once(open_editor)
     hands.row("Mass")
     hands.fill("2.5")
     hands.until(lambda s: [m for m, _, _ in s["members"]] == [2.5] * 3)
-    hands.sign("-", "Mass")
-    hands.until(lambda s: [m for m, _, _ in s["members"]] == [2.0] * 3)
     hands.row("Friction")
     hands.fill("rubber")
     hands.until(lambda s: ["Friction", "rubber"] in s["rows"])
@@ -161,7 +153,7 @@ def test_sensors_are_added_changed_and_removed(open_editor):
     hands.until(lambda s: len(s["sensors"][0]) == 2)
 
 
-@pytest.mark.parametrize("name", list(members("joints")))
+@pytest.mark.parametrize("name", ["Hinge", "Spring"])
 def test_joints_tie_a_body_to_another_or_to_the_floor(open_editor, name):
     hands = chosen(open_editor, team((0, 0), (2, 0)))
     for place in ((2, 0), (0, 2)):
@@ -252,8 +244,10 @@ def test_without_a_mouse_everything_is_placed_selected_and_changed(open_editor):
     hands.press("m", "a", "s", "Return")
     hands.fill("2")
     hands.until(lambda s: s["members"][0][0] == 2 and s["focused"])
-    hands.press("Right", "Escape", "Right")  # the panel's, then the robot's
-    hands.until(lambda s: s["members"][0][0] == 2.5 and s["robots"][0][0] > 1)
+    hands.press("Right")  # the panel's
+    assert hands.state["robots"][0][0] == 1
+    hands.press("Escape", "Right")
+    hands.until(lambda s: s["robots"][0][0] > 1)
     hands.press("Tab")
     hands.until(lambda s: s["selection"] == [["prop", 0, 0]])
 
@@ -270,17 +264,14 @@ def typed(hands, *places):
 
 def test_without_a_mouse_areas_are_drawn_their_corners_changed_and_bodies_tied(open_editor):
     hands = open_editor()
-    hands.press("m", "Delete", "Delete")
-    typed(hands, "-4 -4", "4 3")
-    hands.until(lambda s: s["workspace"] == [[-4, -4], [4, -4], [4, 3], [-4, 3]])
-    hands.press("F2", "End", "Return")
+    hands.press("m", "F2", "End", "Return")
     hands.type("-4 4")
     hands.press("Return", "Escape", "ctrl+d", "Down")
     hands.until(lambda s: s["workspace"][3] == [-4, 4] and len(s["workspace"]) == 5)
     hands.press("Delete")
     hands.until(lambda s: len(s["workspace"]) == 4)
     hands.press("k")
-    typed(hands, "2 -2", "3 -3")
+    typed(hands, "2.5 -2.5")
     hands.until(lambda s: s["outlines"] == [[[2, -3], [3, -3], [3, -2], [2, -2]]])
     hands.press("r")
     typed(hands, "0 0", "2 0")
@@ -300,17 +291,6 @@ def test_without_a_mouse_areas_are_drawn_their_corners_changed_and_bodies_tied(o
     hands.until(lambda s: s["tool"] == "tie")
     typed(hands, "robot1")
     hands.until(lambda s: s["joints"][-1][1:3] == ["robot0", "robot1"])
-
-
-def test_escape_or_a_click_beside_it_closes_a_menu(open_editor):
-    hands = chosen(open_editor, team((0, 0)))
-    for close in (lambda: hands.press("Escape"), lambda: hands.click(-3, -3)):
-        hands.row("Law")
-        hands.until(lambda s: s["menu"])
-        close()
-        hands.until(lambda s: not s["menu"])
-        hands.click(0, 0)
-        hands.until(lambda s: len(s["selection"]) == 1)
 
 
 def test_arrows_in_a_menu_choose_and_leave_the_robot_behind_it_where_it_is(open_editor):
@@ -337,24 +317,3 @@ def test_a_number_is_mended_at_the_caret_and_an_unchanged_one_stays_exact(open_e
     hands.press("Home", "1", "Delete", "2", "Return")
     hands.until(lambda s: s["prompt"] is None)
     assert hands.state["members"][0][0] == 12.12345678901234567
-
-
-def test_the_wheel_scrolls_the_panel_where_it_is_too_long(open_editor):
-    robot = Robot(diameter=0.6, sensors=[mars2d.sensors.Imu(name=f"imu{k}") for k in range(20)])
-    hands = chosen(open_editor, Scenario(robots=[robot]))
-    assert "Joints" not in hands.state["panel"]
-    hands.do("mousemove", *hands.state["panel"]["Law"], *["click", 5] * 30)
-    hands.until(lambda s: "Joints" in s["panel"] and "Law" not in s["panel"])
-    hands.do(*["click", 4] * 30)
-    hands.until(lambda s: "Law" in s["panel"])
-
-
-def test_a_law_given_in_a_paused_run_is_in_the_outcome(open_editor):
-    scenario = team((0, 0)).replace(addons=[Map([[(3, 3), (4, 4)]])])
-    hands = chosen(open_editor, scenario, live=True)
-    hands.row("Law")
-    hands.entry("driven by hand")
-    hands.until(lambda s: s["laws"] == ["ByHand()"])
-    hands.press("Return")
-    hands.until(lambda s: s.get("left"))
-    assert hands.state["when"] == "now"

@@ -224,7 +224,7 @@ def test_the_panel_says_how_it_stands(memory):
     frame = game._player.frame
     red, blue = frame.pose[:2].T
     assert game.distance(frame) == pytest.approx(((red - blue) ** 2).sum() ** 0.5)
-    assert game.played_by("pursuer") == "straight"
+    assert game.played_by("pursuer") == "ahead"
     assert game.played_by("evader") == "you"
     assert game.score() == {}  # with one robot each it says nothing
     assert [(each.number, each.title) for each in game.choices] == [

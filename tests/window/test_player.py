@@ -187,10 +187,10 @@ def test_every_key_has_its_own_command():
     assert all(each.help and each.labels for each in (*keys.ACTIONS, *keys.MOUSE))
 
 
-def pressed(name, character, *, manual, mod=0):
+def pressed(name, character, mod=0):
     code = pygame.key.key_code(name)
     event = pygame.Event(pygame.KEYDOWN, key=code, unicode=character, mod=mod)
-    action = keys.Keyboard().press(event, manual=manual)
+    action = keys.Keyboard().press(event)
     return None if action is None else action.name
 
 
@@ -204,7 +204,7 @@ def pressed(name, character, *, manual, mod=0):
     ],
 )  # fmt: skip
 def test_what_keys_do(keyboard, name, character, action):
-    assert pressed(name, character, manual=False) == action
+    assert pressed(name, character) == action
 
 
 @each_case(
@@ -215,7 +215,7 @@ def test_what_keys_do(keyboard, name, character, action):
     ],
 )  # fmt: skip
 def test_what_keys_do_with_ctrl(keyboard, name, mod, action):
-    assert pressed(name, "", manual=True, mod=mod | pygame.KMOD_LCTRL) == action
+    assert pressed(name, "", mod | pygame.KMOD_LCTRL) == action
 
 
 def test_so_many_steps_are_done_as_pictures_allow_and_then_it_is_paused():
@@ -267,41 +267,15 @@ def test_at_speed_max_the_simulation_gets_nine_times_as_long_as_the_drawing():
     assert p.source.row - quick > 4 * quick
 
 
-@each_case(
-    "name, action",
-    [
-        ("space", "step"), ("return", "step"), ("right", "step"), ("up", "step"),
-        ("g", "grid"), ("m", "messages"), ("x", "forces"), ("left", "back"), ("y", "theory"),
-        ("tab", "select"), ("escape", "escape"),
-        ("left shift", None), ("left ctrl", None),
-    ],
-)  # fmt: skip
-def test_in_manual_mode_every_other_key_is_a_step(keyboard, name, action):
-    assert pressed(name, "", manual=True) == action
-
-
 # -- contacts -------------------------------------------------------------------------------------
 
 
 def test_at_speed_max_it_stops_at_the_step_of_the_contact_too():
     p = Player(Circling(rows=50, pressed=True), "max")
-    p.at_contact = "stop"
+    p.stops = True
     p.pass_time(0.1)
     assert (p.source.row, p.paused) == (1, True)
     p.pause_or_resume()
     while p.playing:
         p.pass_time(0.1)
     assert p.source.row == 50
-
-
-def test_slowly_for_a_second_of_wall_time():
-    p = Player(Circling(rows=500, pressed=True), 2.0)
-    p.at_contact = "slow"
-    p.pass_time(0.0625)
-    before = p.frame.time
-    for _ in range(16):
-        assert p.status()[0] == "slow  0.1x"
-        p.pass_time(0.0625)
-    assert p.frame.time - before == pytest.approx(0.1)
-    p.pass_time(0.0625)
-    assert p.frame.time - before == pytest.approx(0.225)

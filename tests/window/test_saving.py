@@ -93,9 +93,9 @@ def test_pictures_and_scenarios_are_kept_beside_others(tmp_path, monkeypatch):
         assert picture.size == SIZE
         assert picture.getpixel((5, 5)) == (255, 0, 0)
     scenario = Scenario(title="Kept", robots=[Robot(pose=(1, 2, 3))])
-    saver.python(scenario, None)
-    assert open_experiment(tmp_path / "walk_1.py").scenario == scenario
-    paths = tmp_path / "walk_2.png", tmp_path / "walk_1.py"
+    saver.scenario(scenario, None)
+    assert open_experiment(tmp_path / "walk_1.toml").scenario == scenario
+    paths = tmp_path / "walk_2.png", tmp_path / "walk_1.toml"
     assert [note.text for note in notes._notes] == [
         f"picture: {paths[0]}", f"scenario: {paths[1]}"
     ], "there is no window, and no clipboard"  # fmt: skip

@@ -97,7 +97,8 @@ def test_to_scrub_with_a_driving_key_held_changes_nothing(sit):
 def test_laws_go_on_where_a_wall_is_drawn_in_the_past(sit):
     window = sit()
     window.until(lambda s: s["row"] == 30)
-    window.press("1", "0", "Left", "e")
+    window.steps(-10)
+    window.press("e")
     director = window.shown.director
     drawn = director.scenario_now()
     wall = Map(walls=[[(2, 1), (2, 1.5)]])

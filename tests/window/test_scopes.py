@@ -41,45 +41,16 @@ def values_of(found):
 
 
 @each_case("what", [*WHATS, "momentum.each", "distance.crate"])
-def test_a_trace_that_grows_is_as_one_that_is_read_at_once(timeline, what):
+def test_a_trace_is_the_records_signal_and_the_present_row(timeline, what):
     trace = Trace(what, (0, 1))
     while timeline.row < 60:
         timeline.advance()
-        if timeline.row % 7 in (0, 1, 4):
-            trace.read(timeline.recorded, timeline.frame)
-    grown = trace.read(timeline.recorded, timeline.frame)
+    found = trace.read(timeline.recorded, timeline.frame)
     assert not trace.error
-    whole = Trace(what, (0, 1)).read(timeline.recorded, timeline.frame)
-    assert [each.name for each in grown] == [each.name for each in whole]
-    for a, b in zip(values_of(grown), values_of(whole), strict=True):
-        np.testing.assert_array_equal(a, b)
     recorded = signals_of_bodies(timeline.recorded, what, (0, 1))
-    for a, b in zip(values_of(whole), values_of(recorded), strict=True):
+    for a, b in zip(values_of(found), values_of(recorded), strict=True):
         assert len(a) == len(b) + 1 == timeline.row + 1, "the present row is not recorded yet"
         np.testing.assert_array_equal(a[:-1], b.reshape(len(b), -1))
-
-
-def test_after_another_branch_or_a_new_start_a_trace_is_read_anew(timeline):
-    trace = Trace("x", (0,))
-    for _ in range(40):
-        timeline.advance()
-    trace.read(timeline.recorded, timeline.frame)
-    timeline.go(20)
-    timeline.change(lambda world: world.operator.place(0, (-2.5, 1.5, 0.0)))
-    for _ in range(30):
-        timeline.advance()
-
-    def is_right():
-        (signal,) = trace.read(timeline.recorded, timeline.frame)
-        rows = len(timeline.recorded)
-        np.testing.assert_array_equal(signal.values[:rows, 0], timeline.recorded.pose[:, 0, 0])
-
-    is_right()
-    timeline.show(timeline.others[0])
-    is_right()
-    timeline.restart()
-    timeline.advance()
-    is_right()
 
 
 def test_the_readings_of_sensors_are_traced_if_they_are_few():
@@ -125,9 +96,6 @@ def test_a_function_of_ones_own_is_traced_and_its_mistakes_are_told(timeline):
 # -- plots ----------------------------------------------------------------------------------------
 
 
-NONE = dict.fromkeys(("scopes", "figure", "table"), None)
-
-
 class Scoped:
     """Scopes of a run on a surface that remembers its words."""
 
@@ -135,9 +103,10 @@ class Scoped:
         layout = Layout.of((1280, 720))
         self.timeline, self.gone = timeline, []
         self.scopes = Scopes(
-            painter(layout, theme), SimpleNamespace(source=timeline, go=self.gone.append), NONE,
+            painter(layout, theme),
+            SimpleNamespace(source=timeline, frame=timeline.frame, go=self.gone.append),
             clock=lambda: 0.0,
-        )  # fmt: skip
+        )
         self.surface = Written(size)
 
     def draw(self):
@@ -160,8 +129,8 @@ def test_the_cursor_has_the_values_of_the_row_that_is_shown(timeline):
             assert f"{name} {as_number(x)}" in texts
 
 
-def test_what_is_switched_on_for_one_body_joins_the_plot_of_another():
-    scopes = Scopes(None, None, NONE)
+def test_what_is_switched_on_for_one_body_joins_the_plot_of_another(timeline):
+    scopes = Scoped(timeline).scopes
     scopes.switch("speed", (0,))
     scopes.switch("speed", (2,))
     scopes.switch("energy", ())

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from mars2d import Robot, Scenario
-from mars2d.output.marks import MARKS
 from mars2d.output.raster.layout import TEXT_SIZES, Layout
 from mars2d.output.raster.theme import LIGHT
 from mars2d.scenario.experiment import open_experiment
@@ -142,10 +141,9 @@ class Slid:
 def test_each_speed_is_found_where_it_is_shown(size, text):
     slid = Slid(1.0, size=size, text=text)
     for speed in (*RUNGS, inf):
-        assert slid.slider.speed_at(slid.slider.x_of(speed)) == speed
+        assert slid.slider.speed_at(slid.slider.x_of_speed(speed)) == speed
     assert slid.slider.speed_at(0) == 0.1
     assert slid.slider.speed_at(size[0]) == inf
-    assert SpeedSlider(RUNGS).speed_at(100) is None
 
 
 @each_case(
@@ -162,77 +160,6 @@ def test_each_speed_is_found_where_it_is_shown(size, text):
 )
 def test_the_speed_stands_beside_it_and_what_is_reached(speed, reached, texts):
     assert Slid(speed, reached).surface.texts == texts
-
-
-# -- zoomed in time -------------------------------------------------------------------------------
-
-
-def zoomed(shown, notches=8, row=300, **options):
-    """Return a bar after notches of the wheel over a row, drawn again."""
-    drawn = Drawn(shown, **options)
-    drawn.bar.zoom(notches, drawn.bar.x_of(row))
-    drawn.bar.draw(drawn.surface, drawn.layout.timebar, painter(drawn.layout, drawn.theme), shown)
-    drawn.pixels = pixels(drawn.surface)
-    return drawn
-
-
-@each_case("size", SIZES)
-def test_a_zoom_keeps_the_row_under_the_pointer_and_rows_are_wider(size):
-    drawn = Drawn(state(), size=size)
-    x = drawn.bar.x_of(300)
-    wide = drawn.bar.x_of(301) - x
-    drawn.bar.zoom(6, x)
-    assert drawn.bar.x_of(300) == pytest.approx(x)
-    assert drawn.bar.x_of(301) - x == pytest.approx(wide * 1.25**6)
-    assert drawn.bar.row_at(x) == 300
-    drawn.bar.zoom(-6, x)
-    assert not drawn.bar.zoomed
-
-
-@THEMES
-def test_marks_that_are_not_shown_have_no_tick_and_others_stand_at_their_rows(theme):
-    drawn = zoomed(state(collision=[10, 290, 310, 390], branch=[305]), notches=12, theme=theme)
-    first, last = drawn.bar.span
-    assert 10 < first < 290
-    assert 310 < last < 390
-    ink = MARKS["collision"].color(theme)
-    assert drawn.has(ink, 290, above=-8)
-    assert drawn.has(ink, 310, above=-8)
-    assert not drawn.has(ink, 10, above=-8)
-    assert not drawn.has(ink, 390, above=-8)
-    assert drawn.has(theme.past.ink, 305, above=8)
-
-
-def test_a_part_stays_within_the_run_and_its_ends_are_told():
-    drawn = zoomed(state(), notches=6)
-    drawn.bar.move(-100)
-    assert drawn.bar.span.first == 0
-    drawn.bar.move(1000)
-    assert drawn.bar.span.last == pytest.approx(1000)
-    shown = state(row=900, rows=1000)
-    drawn.bar.draw(drawn.surface, drawn.layout.timebar, painter(drawn.layout, LIGHT), shown)
-    assert "100.0 s" in drawn.surface.texts
-
-
-def test_the_part_moves_on_with_the_handle_but_not_by_itself():
-    drawn = zoomed(state(), notches=8)
-    look = painter(drawn.layout, LIGHT)
-
-    def after(row, rows=400):
-        shown = state(row, rows)
-        drawn.bar.draw(drawn.surface, drawn.layout.timebar, look, shown)
-        return drawn.bar.span
-
-    before = drawn.bar.span
-    assert after(310) == before
-    moved = after(390)
-    assert moved.first < 390 < moved.last
-    assert moved.rows == pytest.approx(before.rows)
-    drawn.bar.move(-20)
-    assert after(390) == drawn.bar.span, "somebody looks elsewhere, while time stands still"
-    assert not drawn.bar.span.first <= 390 <= drawn.bar.span.last
-    back = after(200)
-    assert back.first < 200 < back.last
 
 
 def test_beside_the_speed_the_pointer_asks_what_a_step_and_a_picture_take():

@@ -139,7 +139,7 @@ def test_keys_and_buttons_of_time_move_all_three(compare):
     window.until(lambda s: s["over"])
     window.press("Home")
     window.until(lambda s: set(s["rows"].values()) == {0})
-    window.press("3", "Right")
+    window.steps(3)
     window.until(lambda s: set(s["rows"].values()) == {3})
     window.press("n")
     met = window.until(lambda s: s["row"] > 3 and s["forces"])

@@ -141,7 +141,9 @@ def test_with_shift_it_starts_anew_with_what_was_drawn(open_window, room):
 def test_drawn_in_the_past_it_makes_a_branch(open_window, room):
     window = open_window(20, experiment=str(room))
     window.until(lambda s: s["newest"] > 60)
-    window.press("Home", "1", "0", "Right", "e")
+    window.press("Home")
+    window.steps(10)
+    window.press("e")
     window.until(lambda s: s["editor"] and s["row"] == 10)
     draw_wall(window, (-1, 0), (-1, 1))
     window.press("Return")

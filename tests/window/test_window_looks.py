@@ -14,7 +14,8 @@ ACROSS = 300, 30
 def test_running_in_the_light(open_window):
     window = open_window(0.1, experiment="coverage_circle")
     window.do("mousemove", *ACROSS)
-    window.press("Home", "4", "0", "Right")
+    window.press("Home")
+    window.steps(40)
     window.until(lambda s: s["row"] == 40 and s["chip"] == "paused")
     window.press("space")
     window.until(lambda s: s["row"] > 40 and s["playing"])
@@ -23,16 +24,16 @@ def test_running_in_the_light(open_window):
 
 def test_paused_in_the_past_in_the_dark_with_another_branch(open_window, room):
     window = open_window(0, experiment=str(room), dark=True, silent=True)
-    window.press("6", "0", "Right")
+    window.steps(60)
     window.until(lambda s: s["row"] == 60)
-    window.press("4", "5", "Left")
+    window.steps(-45)
     window.until(lambda s: s["row"] == 15)
     window.drag((-2, -1), (-1, -1.5), (0, -1.2))
     window.until(lambda s: s["branches"] == 1)
     window.drag((-1.7, 0.5), (-1.5, -0.2), button=3)
-    window.press("4", "0", "Right")
+    window.steps(40)
     window.until(lambda s: s["row"] == 55)
-    window.press("1", "0", "Left")
+    window.steps(-10)
     window.until(lambda s: s["row"] == 45)
     window.do("mousemove", *ACROSS)
     compare("window_branch", window.still())
@@ -49,7 +50,8 @@ def test_the_help(open_window):
 def test_the_inspector(open_window):
     window = open_window(0, experiment="wall_follower")
     window.do("mousemove", *ACROSS)
-    window.press("6", "0", "Right", "Tab")
+    window.steps(60)
+    window.press("Tab")
     window.until(lambda s: (s["row"], s["selected"]) == (60, 0))
     compare("window_inspector", window.still())
 
@@ -66,7 +68,8 @@ def test_a_law_that_failed(open_window, room):
 
 def test_driving_by_hand(open_window, room):
     window = open_window(0, experiment=str(room), silent=True)
-    window.press("4", "0", "Right", "Tab", "Tab", "h")
+    window.steps(40)
+    window.press("Tab", "Tab", "h")
     window.until(lambda s: s["driving"] == 1 and s["row"] == 40)
     window.point(1, -1)
     window.until(lambda s: s["over_body"] == 2)
@@ -77,6 +80,7 @@ def test_driving_by_hand(open_window, room):
 def test_for_the_back_row(open_window, pages):
     window = open_window(0, experiment="coverage_circle", text=1.7)
     window.do("mousemove", *ACROSS)
-    window.press("4", "0", "Right", *["F1"] * pages)
+    window.steps(40)
+    window.press(*["F1"] * pages)
     window.until(lambda s: s["row"] == 40 and s["help"] == (0 if pages else None))
     compare("window_large_help" if pages else "window_large", window.still())

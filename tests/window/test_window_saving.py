@@ -70,18 +70,19 @@ def test_v_films_until_it_is_pressed_again(open_window, folder):
         assert sum(1 for _ in film.decode(video=0)) > 0
 
 
-def test_c_keeps_the_scenario_as_it_is_seen_as_python(open_window, room, folder):
+def test_c_keeps_the_scenario_as_it_is_seen(open_window, room, folder):
     window = open_window(0, folder=folder, experiment=str(room))
-    window.press("2", "0", "Right")
+    window.steps(20)
     poses = window.until(lambda s: s["row"] == 20)["robots"]
     window.press("c")
-    window.says(f"scenario: {folder / 'room_1.py'}")
-    kept = open_experiment(folder / "room_1.py").scenario
+    window.says(f"scenario: {folder / 'room_1.toml'}")
+    kept = open_experiment(folder / "room_1.toml").scenario
     assert np.allclose([robot.pose for robot in kept.robots], poses, atol=1e-3)
     assert (kept.title, len(kept.props)) == ("A room", 1)
     window.press("c")
-    window.says("room_2.py")
-    assert (folder / "room_1.py").read_text() == (folder / "room_2.py").read_text()
+    window.says("room_2.toml")
+    twice = (folder / "room_2.toml").read_text()
+    assert (folder / "room_1.toml").read_text() == twice.replace("room_2", "room_1")
 
 
 @pytest.mark.parametrize("place", ["locked", "gone"])

@@ -1,9 +1,7 @@
 """Scopes in a window: chosen by mouse, scrubbed, saved."""
 
-import csv
-
-import numpy as np
 import pygame
+import pytest
 
 from mars2d import load, run
 from tests.window.person import PUSHING
@@ -32,22 +30,23 @@ def test_scopes_are_chosen_by_mouse_for_several_bodies(open_window, pushing):
     window.press("q")
     choose(window, "Speed")
     window.until(lambda s: s["scopes"]["speed"] == [0, 1, 2])
-    choose(window, "Distance to ...")
-    choose(window, "red")
+    choose(window, "Distance to red")
     window.until(lambda s: s["scopes"].get("distance.red") == [2])
     window.press("Escape")
     window.until(lambda s: not s["menu"])
     window.press("Escape")
-    window.until(lambda s: "inspector" not in s["panels"] and "distance to red" in s["on_scopes"])
-    window.do("mousemove", *window.state["on_scopes"]["energy"], "click", 1)
+    window.press("q")
+    choose(window, "Energy, and what has made it")
     window.until(lambda s: [*s["scopes"]] == ["speed", "distance.red"])
+    window.press("Escape")
+    window.until(lambda s: not s["menu"])
     window.do("mousemove", *window.state["closes"]["scopes"], "click", 1)
     window.until(lambda s: not s["panels"])
 
 
 def test_a_click_in_a_plot_goes_to_that_time_and_a_drag_scrubs(open_window, pushing):
     window = open_window(0, experiment=str(pushing))
-    window.press("1", "9", "9", "Right")
+    window.steps(199)
     window.until(lambda s: s["row"] == 199)
     push(window, "scopes")
     choose(window, "Contact force")
@@ -63,26 +62,17 @@ def test_a_click_in_a_plot_goes_to_that_time_and_a_drag_scrubs(open_window, push
     window.do("mouseup", 1)
 
 
-def test_what_is_plotted_is_saved_as_figure_and_as_numbers(open_window, pushing, tmp_path):
+def test_what_is_plotted_is_saved_as_a_figure(open_window, pushing, tmp_path):
     folder = tmp_path / "out"
     folder.mkdir()
     window = open_window(0, experiment=str(pushing), folder=folder)
-    window.press("3", "0", "Right")
+    window.steps(30)
     window.until(lambda s: s["row"] == 30)
     window.click(-2 + 0.2 * 3, 0.5, button=3)
     choose(window, "Plot over time")
     choose(window, "x")
     window.until(lambda s: "x" in s["areas"])
-    window.press("Escape", "Escape")
-    window.until(lambda s: s["selected"] is None and not s["menu"])
-    window.do("mousemove", *window.state["on_scopes"]["table"], "click", 1)
-    window.says("numbers: ")
-    with (folder / "pushing_1.csv").open() as file:
-        header, *rows = csv.reader(file)
-    assert header == ["time [s]", "x of red [m]"]
-    record = run(str(pushing), show=False)
-    np.testing.assert_array_equal([float(x) for _, x in rows], record.pose[:30, 0, 0])
-    window.do("mousemove", *window.state["on_scopes"]["figure"], "click", 1)
+    choose(window, "Save the plots as a figure")
     window.says("figure: ")
     size = pygame.image.load(folder / "pushing_1.png").get_size()
     assert min(size) > 200
@@ -105,3 +95,14 @@ def test_a_recording_has_scopes(open_window, pushing, tmp_path):
     push(window, "scopes")
     choose(window, "Kinetic energy")
     window.until(lambda s: "kinetic energy" in s["areas"])
+
+
+def test_keys_show_less_time_and_more_in_the_plots(open_window, pushing):
+    window = open_window(0, experiment=str(pushing))
+    window.press("q")
+    choose(window, "x")
+    window.until(lambda s: "x" in s["areas"])
+    window.press("Escape", "comma", "comma")
+    assert window.shown.scopes.span == pytest.approx(10 / 1.25**2)
+    window.press("period", "period", "period")
+    assert window.shown.scopes.span is None

@@ -129,7 +129,7 @@ def test_at_any_size_of_text_the_arena_has_room_and_icons_no_less(window, size):
         assert all(window.layout.tools.contains(each) for each in buttons.values())
         sides.append(next(iter(buttons.values())).height)
         labelled = size[0] >= 1100 * window.layout.ui
-        assert ("Save as Python" in written) == labelled, "an icon has a word where there is room"
+        assert ("Save scenario" in written) == labelled, "an icon has a word where there is room"
     assert min(sides) >= (0.75 if size == (640, 400) else 1.0) * sides[0], sides
 
 

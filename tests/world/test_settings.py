@@ -79,7 +79,7 @@ def test_another_shape_or_start_needs_a_new_start_whose_record_has_the_setting(t
     assert record.options == {"diameter": 0.5, "y": 1.0}
     assert record.interventions == ()
     record.save(tmp_path / "run.npz")
-    assert main(["check", str(tmp_path / "run.npz"), "--laws"]) in (0, None)
+    assert main(["check", str(tmp_path / "run.npz")]) in (0, None)
 
 
 def test_before_the_first_step_a_run_begins_with_the_value_as_if_it_were_its_own(timeline):

@@ -12,9 +12,7 @@ from mars2d.bodies.props import Box
 from mars2d.cli import command_line as cli
 from mars2d.core.errors import InputError
 from mars2d.record.rows import COLUMNS
-from mars2d.scenario.experiment import open_experiment
-from mars2d.world.loop import open_world
-from mars2d.world.verify import ask_again, rerun
+from mars2d.world.verify import rerun
 from tests.cases import each_case
 
 
@@ -173,102 +171,3 @@ def test_check_says_where_and_by_how_much_and_with_what_it_was_made(record, tmp_
     assert "blue is off by 0.5 m and 0 rad" in told
     assert f"it was made with numpy 1.2.3, here {np.__version__}" in told
     assert told.count("\n") == 1
-
-
-# -- the laws, asked again ------------------------------------------------------------------------
-
-LAWS = """\
-from mars2d import Robot, Scenario
-from mars2d.sensors import Proximity
-
-
-def go(robot):
-    robot.memory.turns = getattr(robot.memory, "turns", 0) + 1
-    near = robot.sense.proximity
-    return 0.3 - 0.1 * near, 0.1 * robot.rng.uniform(-1, 1) + GAIN * (robot.memory.turns == 8)
-
-
-def scenario(speed=1.0):
-    red = Robot(name="red", pose=(-1, 0, 0), controller=go, sensors=[Proximity(range=1.0)])
-    return Scenario(robots=[red, red.replace(name="blue", pose=(0.5, 0.05, 3))], stop_time=3)
-"""
-
-
-@pytest.fixture
-def walk(tmp_path, monkeypatch):
-    """A record, and the file of its laws, in the current folder."""
-    monkeypatch.chdir(tmp_path)
-    path = tmp_path / "walk.py"
-    path.write_text(LAWS.replace("GAIN", "0.0"))
-    assert cli.main(["run", "walk.py", "--headless", "--seed", "3", "--record", "walk.npz"]) == 0
-    return path
-
-
-def test_laws_that_were_not_changed_decide_the_same(walk, capsys):
-    assert cli.main(["check", "walk.npz", "--laws"]) == 0
-    assert capsys.readouterr().out.endswith("laws        of walk.py: decide the same in all rows\n")
-
-
-def test_a_law_that_was_changed_is_told_with_its_row_and_command(walk, capsys):
-    walk.write_text(LAWS.replace("GAIN", "0.5"))
-    assert cli.main(["check", "walk.npz"]) == 0
-    capsys.readouterr()
-    assert cli.main(["check", "walk.npz", "--laws"]) == 1
-    told = capsys.readouterr().err
-    record = mars2d.load("walk.npz")
-    v, w = record.command[7, :, 0]
-    assert "asked again, walk.py departs at row 7, at 0.7 s: the command of red is now " in told
-    assert f"is now ({v:g}, {w + 0.5:g}), not ({v:g}, {w:g}), and so of 1 other\n" in told
-
-
-def test_a_command_by_hand_is_no_laws(walk):
-    world = open_world(open_experiment(str(walk), seed=3))
-    for k in range(12):
-        if k == 4:
-            world.operator.steer("red", (0.1, 0.2))
-        if k == 9:
-            world.operator.steer("red", None)
-        world.step()
-    assert ask_again(world.record, open_experiment(str(walk))) == []
-
-
-def test_another_scenario_departs_by_its_poses(walk, capsys):
-    walk.write_text(LAWS.replace("GAIN", "0.0").replace("0.05, 3", "0.05, 2"))
-    assert cli.main(["check", "walk.npz", "--laws"]) == 1
-    assert "departs at row 0, at 0 s: blue is off by 0 m and 1 rad" in capsys.readouterr().err
-
-
-def test_settings_are_those_of_the_run(walk, capsys):
-    again = ["--set", "robots.1.pose=(1.5, 0, 3)"]
-    assert cli.main(["run", "walk.py", "--headless", "--record", "other.npz", *again]) == 0
-    assert cli.main(["check", "other.npz", "--laws"]) == 0
-    assert cli.main(["check", "other.npz", "--laws", "walk.py", *again]) == 0
-    assert cli.main(["check", "other.npz", "--laws", "walk.py"]) == 1
-    assert cli.main(["check", "other.npz", "--laws", "--set", "robots.1.pose=(1, 0, 3)"]) == 1
-
-
-@each_case(
-    ("words", "message"),
-    [
-        (["walk.py", "--laws"], "--laws is for records: .npz"),
-        (
-            ["walk.npz", "--laws", "wolk.py"],
-            "wolk.py: there is no such file; did you mean 'walk.py'",
-        ),
-        (
-            ["walk.npz", "--laws", "crowd"],
-            "than the record: robot0 instead of red",
-        ),
-        (["walk.npz", "--set", "seed=3"], "--set is for maps"),
-    ],
-)
-def test_laws_that_can_not_be_asked_are_refused(walk, capsys, words, message):
-    assert cli.main(["check", *words]) == 2
-    assert message in capsys.readouterr().err
-
-
-def test_an_experiment_that_is_gone_is_asked_for(walk, capsys):
-    walk.rename("elsewhere.py")
-    assert cli.main(["check", "walk.npz", "--laws"]) == 2
-    assert "walk.py is neither in this folder nor beside it: name" in capsys.readouterr().err
-    assert cli.main(["check", "walk.npz", "--laws", "elsewhere.py"]) == 0

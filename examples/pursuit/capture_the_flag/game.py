@@ -35,6 +35,12 @@ def scenario(guards=2, attackers=4, mu=1.0, guard=GUARD, attacker=ATTACKER, seed
             most.append(len(free) - len(matched))
         for i, j in matched:
             scene.line([places[i], places[guards + j]], stroke=VIOLET, width=3)
+        start = frame.scenario.initial_pose[:2].T
+        for i, j in theory.matching(start, guards, mu):  # where both would be at their best
+            goal = theory.nearest(start[guards + j], start[i], mu)
+            for place, speed in ((start[i], SPEED), (start[guards + j], mu * SPEED)):
+                far = min(1, speed * frame.time / np.hypot(*(goal - place)))
+                scene.circle(place + far * (goal - place), robot.radius, stroke=VIOLET)
         said = f"at most {most[1]} more, {most[1] - most[0]:+d} in 1 s\n\n"
         scene.text((-4, REACH), said, color=VIOLET, halo="#ffffff")
 

@@ -9,11 +9,17 @@ from mars2d.geometry import dominance
 FLAG, REACH, CAPTURE = np.array([[-4.0], [0.0]]), 0.5, 0.5  # m
 
 
+def nearest(attacker, guard, mu):
+    """The point nearest to the flag that an attacker reaches before a guard."""
+    edge = dominance(attacker, guard, mu, CAPTURE)
+    return edge[:, np.hypot(*(edge - FLAG)).argmin()]
+
+
 def stops(guard, attacker, mu):
     """Whether a guard keeps an attacker off the flag: all of it is out of the attacker's region."""
     guard_way, way = (np.hypot(*(place - FLAG[:, 0])) for place in (guard, attacker))
-    edge = dominance(attacker, guard, mu, CAPTURE) - FLAG
-    return way / mu > guard_way - CAPTURE and np.hypot(*edge).min() > REACH
+    left = np.hypot(*(nearest(attacker, guard, mu) - FLAG[:, 0]))
+    return way / mu > guard_way - CAPTURE and left > REACH
 
 
 def matching(starts, guards, mu):

@@ -1,7 +1,7 @@
 """Corner pursuit as a game: a pursuer that may be slower than the evader, and a law for each.
 
 Question: who catches whom, up to which ratio mu of the speeds? Play with laws of your own:
-mars2d run corner_game --set pursuer=my_law.py --set mu=0.8 --seed 3
+mars2d run corner_game --set pursuer=my_law.py --set mu=0.9 --seed 3
 Setting: distributed, partial information: each knows its own pose and where the other is, and asks
 for a velocity (vx, vy), which its drive shortens to its speed. A capture is a contact. In 200 s the
 evader can go 100 m, as far as that of pursuit_corners. Source: Casini and Garulli, 2016, 5.1.
@@ -31,8 +31,8 @@ def starts(seed):
 
 
 def scenario(
-    mu: Annotated[float, Range(0.3, 1.5)] = 0.9,
-    pursuer: str = "pursuers/straight.py",
+    mu: Annotated[float, Range(0.3, 1.5)] = 0.8,
+    pursuer: str = "pursuers/ahead.py",
     evader: str = "evaders/corners.py",
     seed: int = 0,
 ):

@@ -12,34 +12,41 @@ less than acos(R / D) + acos(R / h). It falls by mu v / D - v / h a second: neve
 """
 
 from math import acos, atan2, cos, pi, sin
+from typing import Annotated
 
 import numpy as np
 import theory
 
-from mars2d import Animation, Holonomic, Robot, Scenario, load_law
+from mars2d import Animation, Holonomic, Range, Robot, Scenario, load_law
 from mars2d.addons import Game, Map, Theory
 from mars2d.sensors import Pose, RangeBearing
 
-SPEED, PILLAR, NEAR, FAR, VIOLET = 0.5, 1.5, 1.75, 2.05, "#7b3294"  # m/s, of the hider; m
-SEEKER, HIDER = "seekers/circle.py", "hiders/opposite.py"
+SPEED, VIOLET = 0.5, "#7b3294"  # m/s, of the hider
 
 
 def circle(angle, radius):
     return radius * cos(angle), radius * sin(angle)
 
 
-def scenario(mu: float = 0.0, seeker: str = SEEKER, hider: str = HIDER, seed: int = 0):
+def scenario(
+    mu: float = 0.0,
+    seeker: str = "seekers/circle.py",
+    hider: str = "hiders/opposite.py",
+    pillar: Annotated[float, Range(0.5, 4)] = 1.5,  # m, its radius
+    seed: int = 0,
+):
     def shadow(scene, frame):
         x, y = frame.pose[:2, 0]
-        half = acos(min(1, PILLAR / np.hypot(x, y)))
+        half = acos(min(1, pillar / np.hypot(x, y)))
         for side in (-half, half):
-            touch = np.array(circle(atan2(y, x) + side, PILLAR))
+            touch = np.array(circle(atan2(y, x) + side, pillar))
             scene.line([touch, touch + 2 * (touch - (x, y))], stroke=VIOLET, width=1.5)
 
+    near, far = pillar + 0.25, pillar + 0.55  # m, of the circles on which they run
     rng = np.random.default_rng(seed)
     apart = rng.uniform(2.3, 3.1)
-    gain = apart - acos(PILLAR / FAR) - acos(PILLAR / NEAR)  # rad, that red has to make up
-    mu = mu or FAR * (gain / 60 / SPEED + 1 / NEAR) * rng.uniform(0.96, 1.04)
+    gain = apart - acos(pillar / far) - acos(pillar / near)  # rad, that red has to make up
+    mu = mu or far * (gain / 60 / SPEED + 1 / near) * rng.uniform(0.96, 1.04)
     eyes, ears = (RangeBearing(range=20, through_walls=hears) for hears in (False, True))
     slow, quick = (Holonomic(max_linear_speed=speed) for speed in (SPEED, mu * SPEED))
     red = Robot(name="red", diameter=1.0, drive=quick, sees="sensors", sensors=[Pose(), eyes])
@@ -48,10 +55,10 @@ def scenario(mu: float = 0.0, seeker: str = SEEKER, hider: str = HIDER, seed: in
     game = Game({"seeker": ["red"], "hider": ["blue"]}, capture="sight")
     return Scenario(
         title="Hide and seek",
-        robots=[red.at(FAR, 0, 0), blue.at(*circle(apart, NEAR))],
+        robots=[red.at(far, 0, 0), blue.at(*circle(apart, near))],
         on_exit="wall",
         stop_time=60.0,
-        addons=[Map([[circle(k * pi / 24, PILLAR) for k in range(48)]]), game, Theory(shadow)],
+        addons=[Map([[circle(k * pi / 24, pillar) for k in range(48)]]), game, Theory(shadow)],
         animation=Animation(base_colors=("red", "blue"), playback_speed=4),
     )
 

@@ -13,21 +13,22 @@ from mars2d import Prediction
 from mars2d.scenario import open_module
 
 base = open_module("hide_and_seek")
+PILLAR, NEAR = 1.5, 1.75  # m, and the circle on which both run
 
 
 def seek(robot):
     x, y, _ = robot.sense.pose
-    heading = atan2(y, x) + pi / 2 + 2 * min(0.7, max(-0.5, hypot(x, y) - base.NEAR))
+    heading = atan2(y, x) + pi / 2 + 2 * min(0.7, max(-0.5, hypot(x, y) - NEAR))
     return 100 * cos(heading), 100 * sin(heading)
 
 
 def scenario(seed: int = 0):
     plain = base.scenario(mu=1.2, seed=seed)
     red, blue = plain.robots
-    return plain.replace(robots=[red.replace(diameter=0.4, controller=seek).at(base.NEAR, 0), blue])
+    return plain.replace(robots=[red.replace(diameter=0.4, controller=seek).at(NEAR, 0), blue])
 
 
 def checks(record):
-    angle = atan2(*record.pose[0, 1::-1, 1]) - 2 * acos(base.PILLAR / base.NEAR)
-    free = angle * base.NEAR / (0.2 * base.SPEED)
+    angle = atan2(*record.pose[0, 1::-1, 1]) - 2 * acos(PILLAR / NEAR)
+    free = angle * NEAR / (0.2 * base.SPEED)
     yield Prediction("the hider is not seen for", free, record.time[-1], 1.0, "s")

@@ -3,47 +3,51 @@
 Question: which pursuer catches an evader that runs round a pillar, and when? Try your own laws:
 mars2d run round_a_pillar --set evader=my_law.py --set mu=1 --seed 3
 Setting: distributed, partial information: each knows its own pose and where the other is. The
-evader goes 0.5 m/s, the pursuer mu times that, drawn about the limit of the 60 s if it is 0. A
-distance of 0.7 m is a capture.
-Law: the evader runs along a circle of the radius h to keep opposite; the pursuer comes after it.
-Source: obstacle tag: Isaacs, Differential Games, Wiley, 1965, problem 6.10.1. The formula is ours.
-Prediction: on one circle the angle a between them falls by (mu - 1) v / h a second. Equals run for
-ever; a chord of the capture distance l ends it, so t = (a h - 2 h asin(l / 2 h)) / ((mu - 1) v).
+evader goes 0.5 m/s, the pursuer mu times that, drawn about the limit of the 60 s if it is 0.
+Source: obstacle tag: Isaacs, Differential Games, 1965, problem 6.10.1. The formula is ours.
+Prediction: on a circle of radius h the angle a between them falls by (mu - 1) v / h a second, to
+the chord l of a capture: t = (a h - 2 h asin(l / 2 h)) / ((mu - 1) v). Equals run for ever.
 """
 
 from math import acos, asin, atan2, cos, pi, sin
+from typing import Annotated
 
 import numpy as np
 import theory
 
-from mars2d import Animation, Holonomic, Robot, Scenario, load_law
+from mars2d import Animation, Holonomic, Range, Robot, Scenario, load_law
 from mars2d.addons import Game, Map, Theory
 from mars2d.geometry import wrap
 
-SPEED, PILLAR, RADIUS, CAPTURE, VIOLET = 0.5, 1.5, 1.75, 0.7, "#7b3294"  # m/s, of the evader; m
-PURSUER, EVADER = "pursuers/shortest.py", "evaders/opposite.py"
+SPEED, CAPTURE, VIOLET = 0.5, 0.7, "#7b3294"  # m/s, of the evader; m
 
 
 def circle(angle, radius):
     return radius * cos(angle), radius * sin(angle)
 
 
-def shortest(start, end):
+def shortest(start, end, radius):
     """The shortest way between two places that keeps out of the circle, as points."""
     angle, last = (atan2(y, x) for x, y in (start, end))
-    out = [acos(min(1, RADIUS / np.hypot(*place))) for place in (start, end)]
+    out = [acos(min(1, radius / np.hypot(*place))) for place in (start, end)]
     side, rest = np.sign(turn := wrap(last - angle)), abs(turn) - sum(out)  # between tangents
     arc = [angle + side * (out[0] + part * rest) for part in np.linspace(0, 1, 50)]
-    return [start, *(circle(each, RADIUS) for each in arc * int(rest > 0)), end]
+    return [start, *(circle(each, radius) for each in arc * int(rest > 0)), end]
 
 
-def scenario(mu: float = 0.0, pursuer: str = PURSUER, evader: str = EVADER, seed: int = 0):
+def scenario(
+    mu: float = 0.0,
+    pursuer: str = "pursuers/shortest.py",
+    evader: str = "evaders/opposite.py",
+    pillar: Annotated[float, Range(0.5, 4)] = 1.5,  # m, its radius
+    seed: int = 0,
+):
     def way(scene, frame):
-        scene.line(shortest(*frame.pose[:2].T), stroke=VIOLET, width=2)
+        scene.line(shortest(*frame.pose[:2].T, h), stroke=VIOLET, width=2)
 
     robot, rng = Robot(diameter=0.4, sees="positions"), np.random.default_rng(seed)
-    angle = rng.uniform(2, 3.1)
-    gain = angle * RADIUS - 2 * RADIUS * asin(CAPTURE / 2 / RADIUS)  # m, that red has to make up
+    angle, h = rng.uniform(2, 3.1), pillar + 0.25
+    gain = angle * h - 2 * h * asin(CAPTURE / 2 / h)  # m, that red has to make up
     mu = mu or 1 + gain / 60 / SPEED * rng.uniform(0.85, 1.15)
     slow, quick = (Holonomic(max_linear_speed=speed) for speed in (SPEED, mu * SPEED))
     red = robot.replace(name="red", drive=quick, controller=load_law(pursuer))
@@ -51,10 +55,10 @@ def scenario(mu: float = 0.0, pursuer: str = PURSUER, evader: str = EVADER, seed
     game = Game({"pursuer": ["red"], "evader": ["blue"]}, capture=CAPTURE)
     return Scenario(
         title="Round a pillar",
-        robots=[red.at(RADIUS, 0), blue.at(*circle(angle, RADIUS))],
+        robots=[red.at(h, 0), blue.at(*circle(angle, h))],
         on_exit="wall",
         stop_time=60.0,
-        addons=[Map([[circle(k * pi / 24, PILLAR) for k in range(48)]]), game, Theory(way)],
+        addons=[Map([[circle(k * pi / 24, pillar) for k in range(48)]]), game, Theory(way)],
         animation=Animation(base_colors=("red", "blue"), playback_speed=4),
     )
 

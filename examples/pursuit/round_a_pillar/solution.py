@@ -15,11 +15,12 @@ from mars2d import Prediction
 from mars2d.scenario import open_module
 
 base = open_module("round_a_pillar")
+H = 1.75  # m, of the circle on which all run
 
 
 def run(way, robot):
     x, y = robot.position
-    heading = atan2(y, x) + way * (pi / 2 + 2 * (hypot(x, y) - base.RADIUS))
+    heading = atan2(y, x) + way * (pi / 2 + 2 * (hypot(x, y) - H))
     return 100 * cos(heading), 100 * sin(heading)
 
 
@@ -32,16 +33,14 @@ def scenario():
     red, blue = plain.robots
     near = 0.3  # rad, between the pursuers: they start side by side
     team = [
-        red.replace(name=name, controller=partial(run, way)).at(
-            *base.circle(way * near, base.RADIUS)
-        )
+        red.replace(name=name, controller=partial(run, way)).at(*base.circle(way * near, H))
         for name, way in (("red", 1), ("orange", -1))
     ]
     game = plain.addons[1].replace(roles={"pursuer": ["red", "orange"], "evader": ["blue"]})
-    blue = blue.replace(controller=stand).at(-base.RADIUS, 0)
+    blue = blue.replace(controller=stand).at(-H, 0)
     return plain.replace(robots=[*team, blue], addons=[plain.addons[0], game])
 
 
 def checks(record):
-    way = base.RADIUS * (pi - 0.3 - 2 * asin(base.CAPTURE / 2 / base.RADIUS))
+    way = H * (pi - 0.3 - 2 * asin(base.CAPTURE / 2 / H))
     yield Prediction("the evader is free for", way / base.SPEED, record.time[-1], 0.2, "s")

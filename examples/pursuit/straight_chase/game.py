@@ -35,6 +35,10 @@ def scenario(
         for width, (p, e) in ((1, frame.pose[:2].T), (3, frame.scenario.initial_pose[:2].T)):
             middle = e + (e - p) * ratio**2 / (1 - ratio**2)
             scene.circle(middle, dist(p, e) * ratio / (1 - ratio**2), stroke=VIOLET, width=width)
+        way = (e - p) * (1 - start.diameter / dist(p, e)) / (1 - ratio)  # red's, if blue runs away
+        for place, share in ((p, 1), (e, ratio)) if abs(e + ratio * way).max() < 8 else ():
+            far = min(1, SPEED * frame.time / np.hypot(*way))
+            scene.circle(place + share * far * way, start.radius, stroke=VIOLET)
 
     rng = np.random.default_rng(seed)
     (r, way), start = rng.uniform((3, 0), (4, 2 * pi)), Robot(sees="positions", diameter=0.3)

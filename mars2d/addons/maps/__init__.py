@@ -1,7 +1,7 @@
 """Maps from files: drawings, occupancy grids, images, geographic shapes."""
 
 from mars2d.addons.maps.drawing import TOLERANCE, Drawing, Piece
-from mars2d.addons.maps.obstacles import Obstacles, described, nearest_room, obstacles
+from mars2d.addons.maps.obstacles import Obstacles, described, obstacles
 from mars2d.addons.maps.reading import SUFFIXES, advice, read
 
 __all__ = [
@@ -12,7 +12,6 @@ __all__ = [
     "Piece",
     "advice",
     "described",
-    "nearest_room",
     "obstacles",
     "read",
 ]

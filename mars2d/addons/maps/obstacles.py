@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -11,7 +10,7 @@ import numpy as np
 from mars2d.addons.maps.drawing import COARSER, MAX_TOLERANCE, Drawing, listed
 from mars2d.addons.maps.regions import GRID, joined, simple_area, simple_line
 from mars2d.core.errors import InputError, counted
-from mars2d.core.plane import Outline, Point, lines_and_areas
+from mars2d.core.plane import Outline
 
 if TYPE_CHECKING:
     import shapely
@@ -24,12 +23,6 @@ MIN_AREA = 1e-6
 
 MAX_LAYERS = 24
 """The most layers that a description names."""
-
-SPARE = (4.0, 1.0, 0.05)
-"""The distances from walls at which a disc may stand, in its radii, the best first."""
-
-NOOK = 0.03
-"""Rooms smaller than this share of the largest one are nooks, in which nothing is to stand."""
 
 
 @dataclass(frozen=True)
@@ -165,31 +158,3 @@ def _layers(drawing: Drawing) -> list[tuple[str, str]]:
     rest = sum(count for _, count, _ in both[MAX_LAYERS:])
     more = [("", f"and {len(both) - MAX_LAYERS} more, {counted(rest, 'piece')}")] if rest else []
     return [*rows, *more]
-
-
-def nearest_room(
-    place: Point, radius: float, outlines: Sequence[Outline], workspace: Outline
-) -> Point | None:
-    """Return the point nearest to a place where a disc stands within a workspace, off obstacles.
-
-    place: (x, y) [m]; it is returned itself if the disc can stand there. radius: of the disc [m].
-    A place with room to turn and drive is preferred to a gap or a corner. Returns None if there is
-    no room.
-    """
-    import shapely
-
-    where = shapely.Point(place)
-    shapes = lines_and_areas(outlines)
-    taken = shapely.union_all(shapely.buffer(shapes, radius, quad_segs=4))
-    free = shapely.difference(shapely.Polygon(workspace), taken)
-    if shapely.covers(free, where):
-        return place
-    for spare in SPARE:
-        inner = shapely.buffer(free, -spare * radius)
-        if not inner.is_empty:
-            parts = shapely.get_parts(inner)
-            areas = shapely.area(parts)
-            rooms = shapely.multipolygons(parts[areas >= NOOK * areas.max()])
-            _, nearest = shapely.shortest_line(where, rooms).coords
-            return float(nearest[0]), float(nearest[1])
-    return None

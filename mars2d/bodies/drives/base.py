@@ -80,8 +80,7 @@ class Drive(Description):
     )  # fmt: skip
     noise: float = number(
         default=0.0, low=0, high=1, unit="sqrt(s)",
-        doc="standard deviation of an actuator's path after one second, as a share of it; "
-        "it grows with the root of time",
+        doc="standard deviation of an actuator's path after one second, as a share of it",
     )  # fmt: skip
     dead_time: float = number(
         default=0.0, low=0, high=1e6, unit="s",
@@ -237,7 +236,7 @@ class Turning(Drive):
 
     max_angular_speed: float | None = number(
         default=None, low=1e-3, high=1e3, unit="rad/s", optional=True,
-        doc="bound of its angular speed, left and right; None: no bound of its own",
+        doc="bound of its angular speed; None: no bound of its own",
     )  # fmt: skip
 
     def turning_radius(self, speed: float) -> float:

@@ -22,8 +22,7 @@ class Differential(Wheeled):
 
     command: str = choice(
         default="wheels", of=("wheels", "twist"),
-        doc="the kind of command: the speeds of the left and the right wheel [rad/s], "
-        "or v [m/s] and omega [rad/s]",
+        doc="the speeds of the left and the right wheel [rad/s], or v [m/s] and omega [rad/s]",
     )  # fmt: skip
     wheel_radius: float = number(
         default=0.05, low=1e-3, high=1e3, unit="m", doc="radius of the wheels"

@@ -79,11 +79,11 @@ class Prop(Description):
     )
     friction: float | None = entry(
         default=None, check=checks.optional(surface_friction),
-        doc="of its sides, a number or a material's name; None: the material's, or 0.5",
+        doc="of its sides; None: the material's, or 0.5",
     )  # fmt: skip
     restitution: float | None = entry(
         default=None, check=checks.optional(surface_restitution),
-        doc="of its sides, a number or a material's name; None: the material's, or 0",
+        doc="of its sides; None: the material's, or 0",
     )  # fmt: skip
     static_friction: float | None = number(
         default=None, low=0, high=1e3, optional=True,

@@ -27,7 +27,7 @@ class Gate(Prop):
     ground_friction = 0.0
     limits: tuple[float, float] | None = entry(
         default=(-pi / 2, pi / 2), check=turning_limits, unit="rad",
-        doc="its range of rotation from the start (least, largest); None: unbounded",
+        doc="its range of rotation; None: unbounded",
     )  # fmt: skip
     limit_restitution: float = number(
         default=0.0, low=0, high=1, doc="at the limits: 0 stops, 1 turns back as fast"

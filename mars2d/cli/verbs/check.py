@@ -8,31 +8,28 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from types import ModuleType
-from typing import Any
 
 from mars2d.addons import maps
 from mars2d.cli import remarks
-from mars2d.cli.arguments import MANY, Output, option, refuse
-from mars2d.cli.outputs import conclude, produced
-from mars2d.cli.runs import run_headless, source_of
+from mars2d.cli.arguments import MANY, option, refuse
+from mars2d.cli.runs import run_headless
 from mars2d.core.deadline import PATIENCE, Deadline
-from mars2d.core.errors import InputError, Late, LawError, Mars2dError, counted, nearest, one_line
-from mars2d.core.progress import Update, progress
+from mars2d.core.errors import InputError, Late, Mars2dError, counted, nearest, one_line
+from mars2d.core.progress import progress
 from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
-from mars2d.output.figures.map import save_map
 from mars2d.scenario.experiment import Experiment, open_experiment, open_module
 from mars2d.scenario.options import options_in_words, parse_option, reading_options
 from mars2d.scenario.policy import SUFFIX as LEARNED
 from mars2d.scenario.policy import Policy
 from mars2d.scenario.robot import Robot
 from mars2d.testing.file import trials
-from mars2d.testing.finding import Finding
+from mars2d.testing.subject import Finding
 from mars2d.tournaments.isolation.limits import LIMITS
 from mars2d.tournaments.match import play
 from mars2d.tournaments.schedule import trial_matches
-from mars2d.world.record import Record, load
-from mars2d.world.verify import ask_again, other_versions, rerun
+from mars2d.world.record import load
+from mars2d.world.verify import other_versions, rerun
 
 TRIAL_STEPS = 10
 """Control steps of a trial run: some mistakes only show when laws and sensors are called."""
@@ -41,26 +38,20 @@ MAX_ROBOTS_LISTED = 8
 
 BAD_INPUT = 2
 
-SAME = ""
-"""The experiment that a record is of."""
-
 LOADING = 60.0
 """The time that loading a file may take, seconds."""
 
 _FILES = (
-    "an experiment, sensors, add-ons, drives, laws (.py or an example's name), a learned law "
+    "an experiment, sensors, add-ons, laws (.py or an example's name), a learned law "
     f"({LEARNED}), a scenario (.toml), a record ({', '.join(formats.SUFFIXES)}), or a map"
 )
-_LAWS = "with a record: ask the laws again; by default those of its own experiment"
-_SET = "how a map is read; with --laws, a field of the experiment, if not as in the record"
+_SET = "how a map is read; with --for, a field of the experiment"
 
 ARGUMENTS = {
     "file": option("FILE", _FILES),
-    "--laws": option("EXPERIMENT", _LAWS, nargs="?", const=SAME),
     "--set": option("KEY=VALUE", _SET, **MANY),
     "--for": option("GAME", "with a law: play it in this game, with --role", dest="game"),
     "--role": option("ROLE", "with --for: the role that the law plays"),
-    "--figure": option("OUT", "draw a map: .png, .pdf, .svg", Path, action=Output),
 }
 
 
@@ -72,22 +63,16 @@ def execute(arguments: argparse.Namespace) -> None:
         return
     options = dict(map(parse_option, arguments.set))
     suffix = path.suffix.lower()
-    if suffix not in formats.SUFFIXES:
-        refuse(arguments, "laws", f"is for records: {', '.join(formats.SUFFIXES)}")
     if suffix not in maps.SUFFIXES:
-        only = "figure set" if arguments.laws is None else "figure"
-        refuse(arguments, only, f"is for maps: {', '.join(maps.SUFFIXES)}")
+        refuse(arguments, "set", f"is for maps: {', '.join(maps.SUFFIXES)}")
     if suffix in maps.SUFFIXES:
         known = reading_options()
         if unknown := [name for name in options if name not in known]:
             raise InputError(f"--set {unknown[0]}: no option{nearest(unknown[0], known)}")
         drawing = maps.read(path, **options)
         _tell_all(maps.described(drawing, maps.obstacles(drawing)))
-        conclude(*produced(arguments, {"figure": lambda: save_map(drawing, arguments.figure)}))
     elif suffix in formats.SUFFIXES:
-        record = _check_record(path)
-        if arguments.laws is not None:
-            _ask_laws(path, record, arguments.laws, options)
+        _check_record(path)
     elif path.suffix in ("", ".py", ".toml", LEARNED):
         _check_code(arguments.file)
     else:
@@ -192,7 +177,7 @@ def _try_all(module: ModuleType, experiment: Experiment | None, limit: Deadline)
         found = trial.findings()
         findings = [finding for finding in found if finding not in said]
         said |= {*findings}
-        faults = [f for f in findings if f.kind == "wrong" and not f.untried]
+        faults = [finding for finding in findings if not finding.untried]
         hints = len(findings) - len(faults)
         verdict = "not tried to the end" if any(f.untried for f in found) else "sound"
         if faults:
@@ -250,8 +235,8 @@ def _robot(robot: Robot) -> str:
     return f"at ({x:g}, {y:g}, {theta:.4g}): {', '.join(parts)}"
 
 
-def _check_record(path: Path) -> Record:
-    """Describe a record, and run it again from its recorded commands; return it."""
+def _check_record(path: Path) -> None:
+    """Describe a record, and run it again from its recorded commands."""
     record = load(path)
     versions = ", ".join(f"{name} {version}" for name, version in record.versions.items())
     source = one_line(record.filename) or "a Scenario"
@@ -275,9 +260,12 @@ def _check_record(path: Path) -> Record:
     _tell_all(rows)
     if not len(record):
         tell("run again   nothing: it has no rows")
-        return record
-    with _repeating(path, record) as update:
-        departure = rerun(record, update)
+        return
+    with progress(len(record), "row") as update:
+        try:
+            departure = rerun(record, update)
+        except InputError as error:
+            raise InputError(f"{path}: {error}") from error
     if departure is not None:
         others = [f"{k} {a}, here {b}" for k, (a, b) in other_versions(record).items()]
         reason = f"; it was made with {', '.join(others)}" if others else ""
@@ -285,34 +273,3 @@ def _check_record(path: Path) -> Record:
             f"{path}: run again from its recorded commands, it departs at {departure}{reason}"
         )
     tell("run again   from its recorded commands: bit-identical")
-    return record
-
-
-@contextmanager
-def _repeating(path: Path, record: Record) -> Iterator[Update]:
-    """Show a progress bar, and name the record in errors but those of laws."""
-    with progress(len(record), "row") as update:
-        try:
-            yield update
-        except LawError:
-            raise
-        except InputError as error:
-            raise InputError(f"{path}: {error}") from error
-
-
-def _ask_laws(path: Path, record: Record, source: str, options: dict[str, Any]) -> None:
-    """Ask the laws of an experiment again in the states of a record."""
-    if source == SAME:
-        name_it = ": name the experiment, --laws EXPERIMENT"
-        if not record.filename:
-            raise InputError(f"{path}: is not of a file{name_it}")
-        source = source_of(record.filename, path, name_it)
-        options = {**record.options, **options}
-    experiment = open_experiment(source, options, seed=record.seed)
-    with _repeating(path, record) as update:
-        departures = ask_again(record, experiment, update)
-    if departures:
-        more = len(departures) - 1
-        also = f"; and in {counted(more, 'other row')}" if more else ""
-        raise Mars2dError(f"{path}: asked again, {source} departs at {departures[0]}{also}")
-    tell(f"laws        of {source}: decide the same in all rows")

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
-import json
-import time
 from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
@@ -17,7 +15,6 @@ from mars2d.cli.outputs import (
     SIZE,
     conclude,
     film_speed,
-    outcome,
     picture_and_film,
     produced,
 )
@@ -33,7 +30,7 @@ from mars2d.world.record import Record
 
 FOLDER = Path("mars2d_compare")
 
-ARGUMENTS = shared("experiment headless seed speed stop-time set figure video dark text json")
+ARGUMENTS = shared("experiment headless seed speed stop-time set figure video dark text")
 
 
 def execute(arguments: argparse.Namespace) -> None:
@@ -41,32 +38,24 @@ def execute(arguments: argparse.Namespace) -> None:
 
     In a window, if there is a display and no other output is wanted.
     """
-    start = time.perf_counter()
     options = options_of(arguments)
     if "physics" in options:
         raise InputError("--set physics: compare runs each physics by itself")
     if arguments.speed in (0, "max"):
         raise InputError("--speed: expected a number > 0")
     opened = partial(_opened, arguments.experiment, options, arguments.seed)
-    if not (arguments.json or arguments.figure or arguments.video):
+    if not (arguments.figure or arguments.video):
         if not arguments.headless and has_display():
             _show(arguments, opened)
             return
         picture_and_film(arguments, FOLDER, opened("contact").scenario.stop_time)
     records = {mode: _run(opened(mode), mode) for mode in MODES}
-    if not arguments.json:
-        tell(_as_table(records))
+    tell(_as_table(records))
     makers = {
         "figure": lambda: save_comparison(records, arguments.figure),
         "video": lambda: _save_film(records, arguments),
     }
-    made, troubles = produced(arguments, makers)
-    if arguments.json:
-        found = {"title": records["contact"].scenario.title, "seed": records["contact"].seed}
-        found |= {name: str(path) for name, path in made.items()}
-        found |= {"runs": _outcomes(records), "wall_s": round(time.perf_counter() - start, 6)}
-        tell(json.dumps(found))
-    conclude({} if arguments.json else made, troubles)
+    conclude(*produced(arguments, makers))
 
 
 def _opened(source: str, options: dict[str, Any], seed: int, mode: str) -> Experiment:
@@ -113,24 +102,18 @@ def _save_film(records: dict[str, Record], arguments: argparse.Namespace) -> Non
         save_pictures(pictures, arguments.video, FPS, update)
 
 
-def _outcomes(records: Mapping[str, Record]) -> list[dict[str, Any]]:
-    """Return how the runs went, with the final drift from the run with contact, metres."""
-    found = []
-    for mode, record in records.items():
-        drift = Drift.between(records["contact"], record)
-        drifted = {"drift_max": float(drift.max[-1]), "drift_mean": float(drift.mean[-1])}
-        found.append({"physics": mode, **drifted, **outcome(record)})
-    return found
-
-
 def _as_table(records: Mapping[str, Record]) -> str:
-    lines, ends = [("physics", "steps", "collisions", "drift max", "drift mean")], ["ended"]
-    for run in _outcomes(records):
+    """Return how the runs went, with the final drift from the run with contact."""
+    lines = [["physics", "steps", "collisions", "drift max", "drift mean"]]
+    ends = ["ended"]
+    for mode, record in records.items():
         apart = ["-", "-"]
-        if run["physics"] != "contact":  # less than a micrometre is rounding
-            apart = [f"{round(run[name], 6):.3g} m" for name in ("drift_max", "drift_mean")]
-        lines.append((run["physics"], f"{run['ticks']}", f"{run['collisions']}", *apart))
-        ends.append(run["message"])
+        if mode != "contact":  # less than a micrometre is rounding
+            drift = Drift.between(records["contact"], record)
+            apart = [f"{round(float(x[-1]), 6):.3g} m" for x in (drift.max, drift.mean)]
+        steps = max(len(record) - 1, 0)
+        lines.append([mode, f"{steps}", f"{record.collisions}", *apart])
+        ends.append(record.over_message)
     first = records["contact"]
     title = f"{first.scenario.title}, seed {first.seed}"
     rows = zip(aligned(lines, left=1), ends, strict=True)

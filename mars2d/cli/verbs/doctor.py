@@ -18,24 +18,6 @@ from mars2d.scenario.schema import schema
 
 MARKS = {True: "ok", None: "--", False: "NO"}
 
-PREAMBLE = {
-    "bash": """\
-_mars2d_experiments() {{
-  compgen -W "{names}" -- "$1"
-  compgen -f -X '!*.py' -- "$1"
-  compgen -f -X '!*.toml' -- "$1"
-  compgen -d -S / -- "$1"
-}}
-""",
-    "zsh": """\
-_mars2d_experiments() {{
-  compadd {names}
-  _files -g '*.(py|toml)'
-}}
-""",
-}
-"""A function of the shell that completes the names of examples, and files."""
-
 _SHELL = "print the script by which bash, zsh, tcsh, fish or powershell completes commands"
 _SCHEMA = "print the JSON Schema of scenario files, for editors, or write it to a file"
 
@@ -66,7 +48,7 @@ def execute(arguments: argparse.Namespace) -> None:
 
 
 def _completion(shell: str) -> str:
-    """Return the script by which a shell completes commands, options and examples."""
+    """Return the script by which a shell completes commands, options and files."""
     from mars2d.cli.command_line import parser_of
 
     with extra("completion", "completion needs shtab"):
@@ -76,14 +58,11 @@ def _completion(shell: str) -> str:
         raise InputError(f"--completion {shell}: shtab has no script for it{hint}")
     root = argparse.ArgumentParser(prog="mars2d")
     verbs = root.add_subparsers()
-    experiments = dict.fromkeys(PREAMBLE, "_mars2d_experiments")
     for name, line in VERBS.items():
         verb = verbs.add_parser(name, help=line, parents=[parser_of(name)], add_help=False)
         for action in verb._actions:
-            if action.metavar in ("EXPERIMENT", "EXAMPLE", "GAME") and not action.option_strings:
-                action.complete = experiments  # type: ignore[attr-defined]
-            elif action.type is Path or action.metavar == "FILE":
+            if action.metavar in ("EXAMPLE", "GAME") and not action.option_strings:
+                action.choices = [*examples()]
+            elif action.type is Path or action.metavar in ("EXPERIMENT", "FILE"):
                 action.complete = shtab.FILE  # type: ignore[attr-defined]
-    names = " ".join(examples())
-    preamble = {each: text.format(names=names) for each, text in PREAMBLE.items()}
-    return str(shtab.complete(root, shell, preamble=preamble))  # type: ignore[arg-type]
+    return str(shtab.complete(root, shell))

@@ -11,7 +11,7 @@ from mars2d.core.progress import progress
 from mars2d.core.streams import check_seed
 from mars2d.core.terminal import tell
 from mars2d.reports.paper.figures import FIGURES, Result
-from mars2d.reports.paper.make import finish, make_all, prepare
+from mars2d.reports.paper.make import finish, make, prepare
 
 
 def _numbers(text: str) -> list[int]:
@@ -37,10 +37,9 @@ def execute(arguments: argparse.Namespace) -> None:
     prepare(folder)
     done: list[Result] = []
     with progress(len(figures), "figure") as update:
-        for result in make_all(figures, folder, seed):
-            done.append(result)
-            update(len(done), f"figure {result.figure.number} is made")
-    done.sort(key=lambda result: result.figure.number)
+        for figure in figures:
+            done.append(make(figure, folder, seed))
+            update(len(done), f"figure {figure.number} is made")
     path = finish(folder, done, seed)
     width = max(len(figure.title) for figure in figures)
     for result in done:

@@ -18,7 +18,6 @@ from mars2d.core.errors import InputError, counted, likely, one_line
 from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
 from mars2d.output.films.footage import Drawings
-from mars2d.physics.islands import reason_without
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.lesson import lesson_of
 from mars2d.scenario.prediction import table
@@ -30,9 +29,6 @@ from mars2d.world.world import Watcher
 
 FOXGLOVE = 8765
 """The port at which Foxglove looks for a server."""
-
-LONG = 20.0
-"""Seconds of the engine's work after which it is worth while to have it compiled."""
 
 _SAVED = "save all data: .npz, .csv, or .mcap, which is written during the run; .mat, .nc"
 _SERVED = f"serve the run to Foxglove on this machine while it goes on, at port {FOXGLOVE}"
@@ -150,14 +146,7 @@ def _run_headless(
     """Run as fast as possible, or in real time for Foxglove; --speed is the film's, too."""
     log = formats.log_to(arguments.record)
     pace = "max" if arguments.foxglove is None else arguments.speed or 1.0
-    world = run_headless(experiment, watchers, log, pace)
-    seconds = world.simulation.seconds["physics"]
-    if seconds >= LONG and reason_without():
-        from mars2d.reports.doctor import remedy
-
-        slow = f"the engine took {seconds:.0f} s, since {reason_without()}"
-        warn(f"{slow}. Compiled it is many times quicker: {remedy()}")
-    return world.record
+    return run_headless(experiment, watchers, log, pace).record
 
 
 def _warn_lawless(experiment: Experiment) -> None:

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import dataclasses
 from pathlib import Path
 
-from mars2d.cli.arguments import MANY, Output, option, refuse, shared, workers_of
+from mars2d.cli.arguments import MANY, Output, option, refuse, shared
 from mars2d.cli.outputs import conclude, produced
-from mars2d.cli.row import show_row
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.terminal import tell
 from mars2d.output.figures.style import STYLES, style_of
@@ -17,13 +15,12 @@ from mars2d.study.plan import parse_all, seeds_of
 from mars2d.study.run import sweep
 from mars2d.study.statistics import confident
 from mars2d.study.summary import comparison, summary
-from mars2d.study.table import Table, is_table
-from mars2d.study.units import checked_units, parse_units
+from mars2d.study.table import Table
 
 TABLE = Path("sweep.csv")
 """The default file of the rows."""
 
-OF_RUNS = "set stop-time seeds first-seed measure out time-limit retry keep workers cluster"
+OF_RUNS = "set stop-time seeds first-seed measure out time-limit retry keep workers"
 """The arguments that choose the runs; they don't apply to an existing table."""
 
 _FILE = "a .py or .toml file, an example's name, or a study's .csv"
@@ -32,13 +29,12 @@ _MEASURE = "a function of the record in the experiment's file, or a built-in one
 _KEEP = "keep the records beside the table; other measures then need no run"
 
 ARGUMENTS = {
-    "experiment": option("EXPERIMENT", _FILE, nargs="?"),
+    "experiment": option("EXPERIMENT", _FILE),
     "--set": option("KEY=VALUES", _VALUES, **MANY),
     **shared("stop-time"),
     "--seeds": option("N", "number of seeds, the same at each point (1)", int),
     "--first-seed": option("K", "the first seed (default: 0)", int),
     "--measure": option("NAME", _MEASURE, **MANY),
-    "--unit": option("NAME=UNIT", "the unit of a setting or a measure, such as spread=m", **MANY),
     "--out": option("OUT.csv", f"file of the rows (default: {TABLE})", Path, action=Output),
     "--figure": option("OUT", "draw the measures: .png, .pdf, .svg", Path, action=Output),
     "--style": option("STYLE", f"of the figure: {', '.join(STYLES)}"),
@@ -47,59 +43,25 @@ ARGUMENTS = {
     "--time-limit": option("S", "seconds that a run may take", float),
     "--retry": option(None, "run rows with an error again"),
     "--keep": option(None, _KEEP),
-    **shared("workers cluster"),
-    "--row": option("N", "run one row of a study again", int),
-    "--view": option(None, "with --row: show it in a window"),
-    "--record": option("OUT", "with --row: save all data of the run", Path, action=Output),
-    **shared("html dark text"),
+    **shared("workers"),
 }
 
 
 def execute(arguments: argparse.Namespace) -> None:
-    """Run an experiment over settings and seeds into a table, or one of its rows again."""
-    given = arguments.experiment or ""
-    if arguments.row is not None:
-        refuse(
-            arguments,
-            f"{OF_RUNS} compare unit style",
-            "does not go with --row N: that runs as it was",
-        )
-        show_row(arguments, _table_here(arguments))
-        return
+    """Run an experiment over settings and seeds into a table."""
+    given = arguments.experiment
     if arguments.figure is None:
         refuse(arguments, "style", "needs --figure OUT: it is of a figure")
     style_of(arguments.style or "screen")
     confident(arguments.confidence)
-    refuse(arguments, "view record html", "needs --row N: it is of one run")
-    if not given:
-        raise InputError("an EXPERIMENT is needed, or --row N of a study that is there")
     if given.lower().endswith(".csv"):
         refuse(arguments, OF_RUNS, f"is for new runs: {given} is there already")
-        table = Table.load(given)
-        stated = checked_units(parse_units(arguments.unit), [*table.settings, *table.measures])
-        table = dataclasses.replace(table, units={**table.units, **stated})
-        _report(arguments, table, Path(given))
+        _report(arguments, Table.load(given), Path(given))
     else:
         out = TABLE if arguments.out is None else arguments.out
         _report(arguments, _swept(arguments, out), out)
         if arguments.keep:
             tell(f"records: {records_beside(out)}")
-
-
-def _table_here(arguments: argparse.Namespace) -> Path:
-    """Return the file with the row: as given, or the newest study in this folder."""
-    row, given = arguments.row, arguments.experiment
-    if given is not None:
-        if not given.lower().endswith(".csv"):
-            raise InputError(f"--row {row}: expected the .csv of a study, not {given}")
-        return Path(given)
-    tables = [path for path in Path().glob("*.csv") if path.is_file() and is_table(path)]
-    if not tables:
-        raise InputError(
-            f"--row {row}: there is no study in this folder; name its file, as "
-            f"mars2d sweep results.csv --row {row}"
-        )
-    return max(tables, key=lambda path: path.stat().st_mtime_ns)
 
 
 def _swept(arguments: argparse.Namespace, out: Path) -> Table:
@@ -111,21 +73,18 @@ def _swept(arguments: argparse.Namespace, out: Path) -> Table:
     if name is not None and len(settings[name]) < 2:
         raise InputError(f"--compare {name}: it has one value; two or more can be compared")
     count = 1 if arguments.seeds is None else arguments.seeds
-    with workers_of(arguments) as (executor, workers):
-        return sweep(
-            arguments.experiment,
-            settings,
-            seeds_of(count, arguments.first_seed or 0),
-            [name.strip() for given in arguments.measure for name in given.split(",")],
-            stop_time=arguments.stop_time,
-            units=parse_units(arguments.unit),
-            out=out,
-            executor=executor,
-            workers=workers,
-            time_limit=arguments.time_limit,
-            retry=arguments.retry,
-            keep=arguments.keep,
-        )
+    return sweep(
+        arguments.experiment,
+        settings,
+        seeds_of(count, arguments.first_seed or 0),
+        [name.strip() for given in arguments.measure for name in given.split(",")],
+        stop_time=arguments.stop_time,
+        out=out,
+        workers=arguments.workers,
+        time_limit=arguments.time_limit,
+        retry=arguments.retry,
+        keep=arguments.keep,
+    )
 
 
 def _report(arguments: argparse.Namespace, table: Table, path: Path) -> None:

@@ -42,6 +42,7 @@ class Body(DrivenBody):
     # what the next substep is worked out from
     touches: cython.bint
     stopped: cython.bint
+    let_go: cython.bint  # whether its drive is thought to bring it back to its command within it
     back: State  # where and how it was before the substep
     moved_x: cython.double  # where the engine has moved it
     moved_y: cython.double

@@ -299,9 +299,9 @@ def share_of(group: Body) -> cython.double:
     share: cython.double = 1.0
     work: cython.double = group.push_work + group.friction_work
     if work > spare(group) * energy:
-        share = min(share, 1.0 - work / energy)
+        share = min(share, 1.0 - work / max(energy, 1e-300))
     if group.crowd <= FEW_BODIES and group.excess > REBOUND * group.push_power:
-        share = min(share, 1.0 - group.excess / group.push_power)
+        share = min(share, 1.0 - group.excess / max(group.push_power, 1e-300))
     share = max(share, 0.0)
     group.push_work = share * (group.push_work - (1 - share) * group.push_power / 2)
     group.friction_work = share * (group.friction_work - (1 - share) * group.friction_power / 2)
@@ -386,7 +386,7 @@ def weaken_holds(solver: Solver) -> cython.bint:
         if not (body.group is body and body.tied) or body.springy:
             continue
         if body.hold_work > spare(body) * body.hold_energy:
-            body.share = max(1.0 - body.hold_work / body.hold_energy, 0.0)
+            body.share = max(1.0 - body.hold_work / max(body.hold_energy, 1e-300), 0.0)
             weaken = weaken or body.share < 1.0
     if not weaken:
         return False

@@ -379,18 +379,33 @@ class Island:
 
         left: s, until the end.
         """
-        accuracy: Accuracy = self.accuracy
         for tie in self.ties:
             tie.measure()
             if tie.holds():
                 tie.a.touches = tie.b.touches = True
-        h: cython.double = self.contact_limit(left)
+        h: cython.double = self.shorten(self.contact_limit(left), left)
+        any_back: cython.bint = False
+        for body in self.bodies:
+            if not body.let_go:
+                continue
+            body.go_to(body.back)
+            if body.out_of_reach(h):
+                body.solved = body.slips = self.any_solved = any_back = True
+            else:
+                body.obey()
+        return self.shorten(h, left) if any_back else h
+
+    def shorten(self, h: cython.double, left: cython.double) -> cython.double:
+        """Return how long of h s the next substep may be, by how gaps close and joints stretch."""
+        accuracy: Accuracy = self.accuracy
         for body in self.bodies:
             body.look()
         for body in self.bodies:
             h = min(h, body.time_to_turn(accuracy.entry / 8))
         for pair in self.pairs:
             h = pair.time_to_touch(h, self.depth_of(pair))
+            if pair.gap <= accuracy.slop and not (pair.a.is_robot and pair.b.is_robot):
+                h = min(h, max(settings.CONTACT_TURN / max(pair.turns(), 1e-300), 1e-3))
         for tie in self.ties:
             h = min(h, tie.time_to_jerk(accuracy.stretch, accuracy.joint_tolerance))
         return left / ceil(left / h - 1e-9)  # equal substeps settle best, and leave no sliver
@@ -423,6 +438,7 @@ class Island:
         for body in self.bodies:
             body.touches = body.touches or body.pulled
             body.slips = body.slips or body.touches
+            body.let_go = False
             # Where others touch, a robot that has just lost touch stays with them for a while, and
             # so does one at a rope that has just gone slack.
             lately: cython.bint = self.any_touch and body.since <= settings.LINGER
@@ -453,7 +469,9 @@ class Island:
         self.any_solved = False
         for body in self.bodies:
             if body.solved and not body.touches:
+                body.back.go_to(body)
                 body.solved = body.slips = body.out_of_reach(h)
+                body.let_go = not body.solved
             self.any_solved = self.any_solved or body.solved
         return h
 

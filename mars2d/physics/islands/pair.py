@@ -185,6 +185,12 @@ class Pair:
             return h
         return min(h, time_to_close(room, closing, turn))
 
+    def turns(self) -> cython.double:
+        """Return how fast the normal turns, rad/s: as the line between the middles of discs."""
+        x: cython.double = self.b.vx - self.a.vx
+        y: cython.double = self.b.vy - self.a.vy
+        return 0.0 if self.is_wall else abs(x * self.normal_y - y * self.normal_x) / self.radii
+
     def lay(self, room: cython.double) -> cython.void:
         """Note at corners which faces of two pieces go on in each other, but for this room."""
 
@@ -396,6 +402,12 @@ class PiecePair(Pair):
                 if closing * h + 0.5 * turns * h * h > room:
                     h = min(h, time_to_close(room, closing, turns))
         return h
+
+    def turns(self) -> cython.double:
+        """Return how fast the normal turns, rad/s: with the body whose edge parts them."""
+        if self.is_wall and self.of_second:
+            return 0.0
+        return abs(self.b.spin if self.of_second else self.a.spin)
 
     def lay(self, room: cython.double) -> cython.void:
         """Note at corners which faces of two pieces go on in each other, but for this room."""

@@ -74,6 +74,9 @@ LOAD_GROWTH = 2.0
 LOAD_DECAY = 0.98
 """The factors by which that number changes in a substep that finds them so deep, and in another."""
 
+CONTACT_TURN = 0.005
+"""How far the normal of a contact may turn in one substep, rad."""
+
 STRETCH = 1.0 / 15.0
 """How much longer a rope may be when it jerks, in parts of how deep bodies may enter.
 

@@ -44,23 +44,6 @@ class Run:
 
 
 @dataclass(frozen=True)
-class Chart:
-    """A chart that a function of `studies` draws on axes side by side.
-
-    caption: with the names of the study's numbers in braces. axes: titles, labels and scales.
-    height: inches.
-    """
-
-    stem: str
-    study: str
-    title: str
-    caption: str
-    alt: str
-    axes: Sequence[dict[str, str]]
-    height: float = 3.0
-
-
-@dataclass(frozen=True)
 class Figure:
     """A figure of the paper, beside what the paper reports, in our own words, and theory.
 
@@ -75,13 +58,7 @@ class Figure:
     law: Sequence[str]
     source: str
     runs: Sequence[Run]
-    charts: Sequence[Chart] = ()
     choices: str = ""
-
-    @property
-    def shown(self) -> list[Run | Chart]:
-        """What it has pictures of."""
-        return [*self.runs, *self.charts]
 
 
 @dataclass(frozen=True)
@@ -89,7 +66,7 @@ class Picture:
     """One picture and its numbers.
 
     stem: the name of its files. alt: the text for people who can't see it. size: of the .png,
-    pixels. command, outcome, digest: of a run. curves: those of a chart, as data for JSON.
+    pixels. command, outcome, digest: of its run.
     """
 
     stem: str
@@ -98,14 +75,13 @@ class Picture:
     caption: str
     size: tuple[int, int]
     predictions: Sequence[Prediction]
-    command: str = ""
-    outcome: str = ""
-    digest: str = ""
-    curves: Sequence[dict[str, Any]] = ()
+    command: str
+    outcome: str
+    digest: str
 
     def as_dict(self) -> dict[str, Any]:
         """Return command and numbers as data for JSON."""
-        said = {name: getattr(self, name) for name in ("command", "outcome", "digest", "curves")}
+        said = {name: getattr(self, name) for name in ("command", "outcome", "digest")}
         checks = [p.as_dict() | {"unit": p.unit} for p in self.predictions]
         return {"picture": self.stem, **said, "checks": checks}
 
@@ -148,7 +124,6 @@ _TOML = (files(__package__) / "figures.toml").read_text(encoding="utf-8")
 FIGURES = [
     Figure(
         runs=[Run(**run) for run in described.pop("runs")],
-        charts=[Chart(**chart) for chart in described.pop("charts", ())],
         **described,
     )
     for described in tomllib.loads(_TOML)["figure"]

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Iterator, Sequence
-from functools import partial
+from collections.abc import Sequence
 from pathlib import Path
 
 from PIL import Image
@@ -13,13 +12,11 @@ from PIL import Image
 from mars2d.core.errors import InputError
 from mars2d.core.files import atomic_write, writing
 from mars2d.core.hints import described
-from mars2d.output.figures.figure import save_drawing, save_figure
-from mars2d.reports.paper.figures import Chart, Figure, Picture, Result, Run
+from mars2d.output.figures.figure import save_figure
+from mars2d.reports.paper.figures import Figure, Picture, Result, Run
 from mars2d.reports.paper.page import page
-from mars2d.reports.paper.studies import curves_of, drawn
 from mars2d.scenario.experiment import open_experiment, open_module
 from mars2d.scenario.options import parse_option
-from mars2d.study.work import each_done
 from mars2d.world.loop import simulate
 from mars2d.world.record import Record
 
@@ -36,63 +33,44 @@ def make(figure: Figure, folder: Path, seed: int = 0) -> Result:
     A picture that fails is named in the result's problems; the others are made all the same.
     """
     pictures: list[Picture] = []
-    records: list[Record] = []
     problems: list[str] = []
-    for shown in figure.shown:
+    for run in figure.runs:
         try:
-            if isinstance(shown, Run):
-                pictures.append(_of_run(shown, folder, seed, records))
-            else:
-                pictures.append(_of_chart(shown, folder, records, len(figure.runs)))
+            pictures.append(_picture(run, folder, seed))
         except Exception as error:  # the page shows the problem in place of the picture
-            problems.append(f"{shown.stem}: {described(error)}")
-    setting = setting_of(figure.runs[0].experiment) if records else ""
+            problems.append(f"{run.stem}: {described(error)}")
+    setting = setting_of(figure.runs[0].experiment) if pictures else ""
     return Result(figure, setting, pictures, problems)
 
 
-def _of_run(run: Run, folder: Path, seed: int, records: list[Record]) -> Picture:
-    """Run, draw and save; the record joins the others."""
+def _picture(run: Run, folder: Path, seed: int) -> Picture:
+    """Run, draw and save."""
     options = dict(map(parse_option, run.settings)) | {"animation.theory": True}
     experiment = open_experiment(run.experiment, options, seed=seed)
     record = simulate(experiment).record
     end = float(record.time[-1])
     times = run.times_until(end)
     when = f"at {', '.join(f'{moment:.4g}' for moment in times)} s" if times else f"in {end:.4g} s"
-    picture = Picture(
+    with Image.open(_saved(record, times, folder / run.stem)) as png:
+        size = png.size
+    return Picture(
         stem=run.stem,
         title=run.title,
         alt=f"Paths of {len(record.scenario.robots)} robots {when}. {run.shows}",
         caption=run.shows,
-        size=_save(partial(save_figure, record, times=times or None), folder / run.stem),
+        size=size,
         command=run.command(record.seed, end),
         outcome=record.over_message,
         digest=record.digest,
         predictions=experiment.predictions(record),
     )
-    records.append(record)
-    return picture
 
 
-def _of_chart(chart: Chart, folder: Path, records: Sequence[Record], runs: int) -> Picture:
-    if len(records) < runs:
-        raise InputError("it needs a run that failed")
-    with drawn(chart, records) as (drawing, (says, predictions)):
-        return Picture(
-            stem=chart.stem,
-            title=chart.title,
-            alt=chart.alt,
-            caption=chart.caption.format(**says),
-            size=_save(partial(save_drawing, lambda: drawing), folder / chart.stem),
-            predictions=predictions,
-            curves=curves_of(drawing),
-        )
-
-
-def _save(save: Callable[[Path], Path], path: Path) -> tuple[int, int]:
-    """Save a picture as .pdf and .png; return the width and height of the .png, pixels."""
-    save(path.with_suffix(".pdf"))
-    with Image.open(save(path.with_suffix(".png"))) as png:
-        return png.size
+def _saved(record: Record, times: Sequence[float], path: Path) -> Path:
+    """Save a picture as .pdf and .png; return the path of the latter."""
+    pdf, png = (path.with_suffix(suffix) for suffix in (".pdf", ".png"))
+    save_figure(record, pdf, times=times or None)
+    return save_figure(record, png, times=times or None)
 
 
 def setting_of(experiment: str) -> str:
@@ -100,19 +78,6 @@ def setting_of(experiment: str) -> str:
     doc = open_module(experiment).__doc__ or ""
     found = re.search(r"^Setting: (.+?)(?=[.:](?:\s|$)|\n\n|\Z)", doc, flags=re.M | re.S)
     return " ".join(found[1].split()) if found else ""
-
-
-def make_all(figures: Sequence[Figure], folder: Path, seed: int) -> Iterator[Result]:
-    """Yield the results of figures as they are made in a folder, with a process per core.
-
-    For one figure no process is started.
-    """
-    work = partial(make, folder=folder, seed=seed)
-    if len(figures) == 1:
-        yield work(figures[0])
-        return
-    for index, made in each_done(work, figures):
-        yield made if isinstance(made, Result) else Result(figures[index], problems=[made.error])
 
 
 # -- the folder ------------------------------------------------------------------------------------

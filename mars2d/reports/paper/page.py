@@ -63,10 +63,9 @@ def _picture(picture: Picture) -> str:
     if picture.predictions:
         heads = ("What", "Predicted", "Measured", "Tolerance", "Holds")
         below += _table("Predicted and measured", heads, map(_prediction, picture.predictions))
-    if picture.command:
-        outcome = f"{escape(picture.outcome)}. Digest <code>{picture.digest}</code>"
-        below += f'<p class="small">{outcome}</p>\n'
-        below += f"<pre><code>{escape(picture.command)}</code></pre>\n"
+    outcome = f"{escape(picture.outcome)}. Digest <code>{picture.digest}</code>"
+    below += f'<p class="small">{outcome}</p>\n'
+    below += f"<pre><code>{escape(picture.command)}</code></pre>\n"
     shape = "wide" if width >= WIDE * height else "half"
     return _filled("picture", **vars(picture), width=width, height=height, shape=shape, below=below)
 

@@ -1,11 +1,13 @@
-"""The ready-made laws of robots. A new one is a file here, and a line below."""
+"""The ready-made laws of robots. A new one is a class in `laws.py`, and a name below."""
 
 from mars2d.scenario.controllers.base import Controller, standing_still
-from mars2d.scenario.controllers.by_hand import ByHand
-from mars2d.scenario.controllers.follow_robot import FollowRobot
-from mars2d.scenario.controllers.follow_wall import FollowWall
-from mars2d.scenario.controllers.follow_waypoints import FollowWaypoints
-from mars2d.scenario.controllers.wander import Wander
+from mars2d.scenario.controllers.laws import (
+    ByHand,
+    FollowRobot,
+    FollowWall,
+    FollowWaypoints,
+    Wander,
+)
 
 __all__ = [
     "ByHand",

@@ -10,8 +10,8 @@ from pathlib import Path
 from mars2d.core.errors import one_line
 from mars2d.core.files import atomic_write
 from mars2d.output.pages.replay import colors, filled, page_script, page_style, player, policy
+from mars2d.scenario.options import options_in_words
 from mars2d.tournaments.league import UNPROTECTED, Tournament
-from mars2d.tournaments.page.rules import rules_part
 from mars2d.tournaments.page.tables import (
     choices,
     grades,
@@ -20,9 +20,8 @@ from mars2d.tournaments.page.tables import (
     standing_tables,
 )
 from mars2d.tournaments.page.words import escaped, read, terms
-from mars2d.tournaments.rules import Rules
 
-__all__ = ["MAX_REPLAYS_SIZE", "league_page", "rules_page", "save_page"]
+__all__ = ["MAX_REPLAYS_SIZE", "league_page", "save_page"]
 
 MAX_REPLAYS_SIZE = 40_000_000
 """How many characters the replays of a page may have; a larger page is slow to load."""
@@ -37,7 +36,7 @@ def league_page(tournament: Tournament) -> str:
     replays = {each.match.number: each.replay for each in tournament.matches if each.replay}
     sizes = accumulate(len(replay) for replay in replays.values())
     kept = sum(size <= MAX_REPLAYS_SIZE for size in sizes)
-    inside, title = read("inside.js"), tournament.schedule.rules.title
+    inside, title = read("inside.js"), tournament.schedule.title
     words = {
         "facts": terms(_facts(tournament, [*replays][kept:])),
         "standings": standing_tables(tournament),
@@ -45,7 +44,6 @@ def league_page(tournament: Tournament) -> str:
         "matrix": matrix(tournament),
         "choices": choices(tournament),
         "matches": match_table(tournament),
-        "rules": rules_part(tournament.schedule.rules),
         "player": _player(one_line(title), inside),
         "replays": "\n".join(
             f'<script id="replay-{number}" type="text/plain">{escaped(replay)}</script>'
@@ -55,18 +53,13 @@ def league_page(tournament: Tournament) -> str:
     return _page(title, filled(read("league.html"), words), read("league.js"), inside)
 
 
-def rules_page(rules: Rules) -> str:
-    """Return the rules of a game as the text of an HTML file, with a picture of the start."""
-    return _page(f"{rules.title}: the rules", f'<main class="rules">{rules_part(rules)}</main>')
-
-
 def save_page(page: str, path: Path) -> None:
     """Write a page to a file. Raises InputError if it can't be written."""
     with atomic_write(path) as file:
         file.write(page.encode("utf-8", errors="replace"))
 
 
-def _page(title: str, body: str, script: str = "", inside: str = "") -> str:
+def _page(title: str, body: str, script: str, inside: str) -> str:
     """Return a page. script: what it runs besides. inside: the first script of its replays."""
     script = f"(() => {{\n{read('page.js')}{script}}})();"
     style = colors() + read("page.css")
@@ -88,12 +81,9 @@ def _player(title: str, inside: str) -> str:
 
 def _facts(tournament: Tournament, left_out: list[int]) -> dict[str, str]:
     """Return the facts about a tournament; left_out: the matches without their replays."""
-    schedule, matches, rounds = tournament.schedule, tournament.matches, [*tournament.rounds()]
+    schedule, matches = tournament.schedule, tournament.matches
     laws = [tournament.laws(role) for role in schedule.roles]
     playing = [f"{len(each)} as {role}" for each, role in zip(laws, schedule.roles, strict=True)]
-    options = schedule.matches[0].options
-    always = [f"{name} = {options[name]}" for name in options if name not in schedule.settings]
-    several = len(rounds) > 1
     seeds = sorted({played.match.seed for played in matches})
     in_a_row = len(seeds) > 2 and seeds[-1] - seeds[0] == len(seeds) - 1
     failed = {
@@ -104,8 +94,7 @@ def _facts(tournament: Tournament, left_out: list[int]) -> dict[str, str]:
     return {
         "Experiment": Path(schedule.experiment).name,
         "Laws": ", ".join(playing),
-        "Rounds": "; ".join(rounds) if several else "",
-        "Settings": ", ".join(always if several else filter(None, [*rounds, *always])),
+        "Options": options_in_words(schedule.matches[0].options),
         "Seeds": f"{seeds[0]} to {seeds[-1]}" if in_a_row else ", ".join(map(str, seeds)),
         "Matches": ", ".join(
             [str(len(matches)), *(f"{count} {what}" for what, count in failed.items() if count)]

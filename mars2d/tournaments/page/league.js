@@ -26,14 +26,13 @@ for (const button of all("button.sort")) button.addEventListener("click", () => 
 // -- choosing -------------------------------------------------------------------------------------
 
 const body = document.querySelector("table.matches tbody");
-const lists = ["law", "against", "round"].map(find).filter(Boolean);
+const lists = ["law", "against"].map(find);
 
 function fits(row) {
-  const [law, rival, round] = lists.map((list) => list.value);
+  const [law, rival] = lists.map((list) => list.value);
   const [one, other] = all(".player bdi", row).map((name) => name.textContent);
   const plays = (a, b) => (law === "" || law === a) && (rival === "" || rival === b);
   if (!plays(one, other) && !plays(other, one)) return false;
-  if (round && round !== textOf(row, ".round")) return false;
   return !find("forfeits").checked || row.querySelector(".forfeit") !== null;
 }
 
@@ -113,8 +112,7 @@ async function show(row) {
     return element("span", ...copies, ` as ${head.cells[cell.cellIndex].textContent}`);
   });
   find("showTitle").replaceChildren(`${numberOf(row)}. `, players[0], " against ", players[1]);
-  const start = [`seed ${textOf(row, ".seed")}`, textOf(row, ".round")].filter(Boolean).join(", ");
-  find("ending").replaceChildren(`${start} · `, ...row.querySelector(".ending").cloneNode(true).childNodes);
+  find("ending").replaceChildren(`seed ${textOf(row, ".seed")} · `, ...row.querySelector(".ending").cloneNode(true).childNodes);
   const printed = all("template", row).map((each) => each.content.cloneNode(true));
   find("printed").replaceChildren(...printed);
   find("printed").hidden = printed.length === 0;

@@ -60,7 +60,7 @@ def standing_tables(tournament: Tournament) -> str:
                 cells["forfeits"] = _forfeits(standing.forfeits)
         role, columns = standings[0].role, {name: kinds.get(name, "number") for name in rows[0]}
         label = f"As {escaped(role)}" if role else "All laws"
-        title = dots(tournament.schedule.rules.roles[role].colors) + label if role else label
+        title = dots(tournament.schedule.colors[role]) + label if role else label
         lines = [[*row.values()] for row in rows]
         tables.append(table("league", label, columns, lines, title))
     return "\n".join(tables)
@@ -163,15 +163,13 @@ def match_table(tournament: Tournament) -> str:
     """Return the table of all matches, each with a button for its replay."""
     schedule = tournament.schedule
     columns = {
-        "match": "head", **({"round": "round"} if len(tournament.rounds()) > 1 else {}),
-        "seed": "seed number", **dict.fromkeys(schedule.roles, "player"),
+        "match": "head", "seed": "seed number", **dict.fromkeys(schedule.roles, "player"),
         "winner": "winner", "free for": "time number", "how it ended": "ending",
     }  # fmt: skip
     rows = []
     for played in tournament.matches:
         cells = {
             "match": WATCH.format(played.match.number),
-            "round": escaped(schedule.round_of(played.match)),
             "seed": str(played.match.seed),
             "winner": _winner(played),
             "free for": NONE if (t := played.payoff) is None else f"{t:.2f} s",
@@ -179,22 +177,19 @@ def match_table(tournament: Tournament) -> str:
         }
         for role, law in played.match.laws.items():
             won = f"<b>{named(law)}</b>" if role == played.winner else named(law)
-            cells[role] = dots(schedule.rules.roles[role].colors) + won
+            cells[role] = dots(schedule.colors[role]) + won
         rows.append([cells[name] for name in columns])
     return table("matches", "All matches", columns, rows)
 
 
 def choices(tournament: Tournament) -> str:
-    """Return the lists for choosing matches by laws and rounds."""
-    laws, rounds = tournament.laws(*tournament.schedule.roles), tournament.rounds()
-    lists: dict[str, Iterable[str]] = {"Law": laws, "against": laws}
-    if len(rounds) > 1:
-        lists["Round"] = rounds
+    """Return the lists for choosing matches by laws."""
+    laws = tournament.laws(*tournament.schedule.roles)
+    every = "".join(f'<option value="{escaped(e)}">{escaped(e)}</option>' for e in laws)
     return "\n".join(
-        f'<label>{words} <select id="{words.lower()}"><option value="">all</option>'
-        + "".join(f'<option value="{escaped(e)}">{escaped(e)}</option>' for e in values)
-        + "</select></label>"
-        for words, values in lists.items()
+        f'<label>{words} <select id="{words.lower()}"><option value="">all</option>{every}'
+        "</select></label>"
+        for words in ("Law", "against")
     )
 
 

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 from mars2d.bodies.props import Ball, Bar, Box, Gate, Puck
 from mars2d.window.editor.desk import Desk
-from mars2d.window.editor.outlining import (
-    DrawPolygon,
-    DrawRectangle,
-    DrawSolid,
-    DrawWall,
-    Workspace,
+from mars2d.window.editor.outlining import DrawPolygon, DrawSolid, DrawWall
+from mars2d.window.editor.placing import (
+    PlaceBeacon,
+    PlaceProp,
+    PlaceRectangle,
+    PlaceRobot,
+    PlaceWaypoint,
 )
-from mars2d.window.editor.placing import PlaceBeacon, PlaceProp, PlaceRobot, PlaceWaypoint
 from mars2d.window.editor.select import Select
 from mars2d.window.editor.tool import Tool
 from mars2d.window.widgets.actions import Action
@@ -38,7 +38,6 @@ ICONS = {
     "waypoint": "M4 19h.1M9 13h.1M14 14h.1M17 10h.1M16 5a3 3 0 1 0 6 0a3 3 0 1 0-6 0",
     "beacon": "M9 12a3 3 0 1 0 6 0a3 3 0 1 0-6 0M12 3v3M12 18v3M3 12h3M18 12h3"
     "M5.6 5.6l2.1 2.1M16.3 16.3l2.1 2.1M18.4 5.6l-2.1 2.1M7.7 16.3l-2.1 2.1",
-    "workspace": "M4 8V4h4M12 4h.1M16 4h4v4M20 12v.1M20 16v4h-4M12 20h-.1M8 20H4v-4M4 12v-.1",
     "snap": "M4 8h16M4 16h16M8 4v16M16 4v16",
 }
 """The paths of the icons, as those of `CONTROLS`."""
@@ -54,10 +53,9 @@ TOOLS: tuple[tuple[str, str, Callable[[Desk], Tool], str], ...] = (
     ("solid", "S", DrawSolid, "prop of any shape; Enter or its first corner closes it"),
     ("wall", "W", DrawWall, "wall, corner by corner; Enter or right click ends it"),
     ("polygon", "P", DrawPolygon, "polygon; click the first corner, or Enter, to close it"),
-    ("rectangle", "K", DrawRectangle, "rectangular obstacle"),
+    ("rectangle", "K", PlaceRectangle, "rectangular obstacle; drag for its size"),
     ("waypoint", "Y", PlaceWaypoint, "waypoints of a robot; click another robot for its own"),
     ("beacon", "N", PlaceBeacon, "beacon"),
-    ("workspace", "M", Workspace, "workspace: drag corners, click an edge for a new one"),
 )
 """Of each tool: its name, its key, how it is made, and its line of help."""
 
@@ -102,8 +100,11 @@ def actions_of(editor: Editor) -> dict[str, tuple[Action, ...]]:
                 editor.ask_pose),
             key("nudge", "arrows", "move the selection by a grid step; with Shift by a tenth",
                 repeats=True),
+            Action("rotate", "turn the selection by 15 degrees; with Shift by one",
+                   ("Ctrl ←", "Ctrl →"), repeats=True),
             key("delete", "Del", "remove the selection, or its corner", desk.remove, "Backspace"),
             key("duplicate", "Ctrl D", "duplicate the selection, or its corner", desk.duplicate),
+            key("workspace", "M", "select the workspace, or make one", editor.select_workspace),
             key("all", "Ctrl A", "select all", editor.select_all),
             key("next", "Tab", "select the next item", editor.select_next),
             key("more", "Shift Tab", "select the next item, too",

@@ -13,7 +13,7 @@ import pygame
 
 from mars2d.bodies.joints.base import Joint
 from mars2d.core.errors import InputError, Mars2dError
-from mars2d.core.plane import Point
+from mars2d.core.plane import Point, rectangle
 from mars2d.core.scene import Scene
 from mars2d.output.layers.table import Layers
 from mars2d.output.raster.bars import Banner, draw_footer, footer_height
@@ -25,8 +25,9 @@ from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.dialogs import Dialogs
 from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft
+from mars2d.window.editor.handles import NOTCH, ring_of
 from mars2d.window.editor.header import Header
-from mars2d.window.editor.item import Item
+from mars2d.window.editor.item import Item, Motion
 from mars2d.window.editor.properties import Properties
 from mars2d.window.editor.readout import minus
 from mars2d.window.editor.select import Handling, Select
@@ -55,7 +56,7 @@ window's width."""
 PANEL, MAX_PANEL, ARENA = 268.0, 0.34, 0.42
 """The width of the panel, points, its largest share of the window's width, and the share of the
 window that it leaves to the drawing."""
-PANEL_HINT = "Arrows choose a row and change its number, Enter opens it, Esc leaves the panel"
+PANEL_HINT = "Arrows choose a row, Enter opens it, Esc leaves the panel"
 STEP = 16.0
 """The height of the line below them, with the step of the grid, points."""
 LAYERS = Layers(trails=False, sensors=False, messages=False)
@@ -178,9 +179,11 @@ class Editor:
         if action is None:
             return
         self.desk.say("")
+        dx, dy = NUDGES.get(label_of(event).split()[-1], (0, 0))
         if action.name == "nudge":
-            dx, dy = NUDGES[label_of(event).removeprefix("Shift ")]
             self.desk.nudge(dx, dy, fine=bool(event.mod & pygame.KMOD_SHIFT))
+        elif action.name == "rotate":
+            self._turn(-dx, fine=bool(event.mod & pygame.KMOD_SHIFT))
         elif action.act is not None:
             action.act()
 
@@ -260,6 +263,14 @@ class Editor:
         self.choose("select")
         self.desk.select(self.desk.draft.items())
 
+    def select_workspace(self) -> None:
+        """Select the workspace; make one round all that there is if there is none."""
+        self.choose("select")
+        draft, desk = self.desk.draft, self.desk
+        if draft.base.workspace is None:
+            desk.put(draft.with_list("workspace", [rectangle(*draft.sketch.bounds)]))
+        desk.select([Item("workspace")])
+
     def select_next(self, *, too: bool = False) -> None:
         """Select the item after that selected last, after the last the first; too: one more."""
         items, chosen = self.desk.draft.items(), self.desk.selection
@@ -309,6 +320,15 @@ class Editor:
         except ValueError:
             raise InputError(f"{text!r}: expected x y in metres, x y degrees, or a name") from None
         self.tool.put(x, y, None if angle is None else radians(angle))
+
+    def _turn(self, way: int, *, fine: bool) -> None:
+        """Turn the selection: 1 is counter-clockwise, -1 clockwise; fine: by one degree."""
+        ring, desk = ring_of(self.desk), self.desk
+        if ring is None:
+            desk.say("select something that has a direction first", warns=True)
+            return
+        motion = Motion(radians(way * (1.0 if fine else NOTCH)), ring.center)
+        desk.put(desk.draft.moved(desk.selection, motion), tag="turn")
 
     def undo(self) -> None:
         """Remove the last corner of the outline being drawn, or else undo the last change."""
@@ -368,7 +388,8 @@ class Editor:
     def draw(self, surface: pygame.Surface) -> None:
         """Draw the editor; the layout follows the surface's size."""
         self._arrange(surface.get_size())
-        self.judge.of(self.desk.draft, at_once=not self._dragging)
+        if not self._dragging:
+            self.judge.of(self.desk.draft)
         self._draw_plot(surface)
         plot, bar = self.layout.plot, self.layout.header
         side = pygame.Rect(0, bar.bottom, plot.left, plot.height)

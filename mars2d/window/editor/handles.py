@@ -7,6 +7,8 @@ from itertools import pairwise
 from math import copysign, cos, degrees, hypot, pi, radians, sin
 from typing import Literal
 
+import numpy as np
+
 from mars2d.bodies.props.base import Prop
 from mars2d.bodies.props.box import Box
 from mars2d.core.plane import Outline, Point, edges_of
@@ -66,7 +68,9 @@ def ring_of(desk: Desk) -> Ring | None:
     if pose is None and not turns and len(items) < 2:
         return None
     xmin, xmax, ymin, ymax = draft.bounds(items)
-    center = (xmin + xmax) / 2, (ymin + ymax) / 2
+    points = [p for item in items for p in draft.corners(item) or [draft.place(item)]]
+    x, y = np.mean(points, axis=0).tolist()  # stays where it is while they turn about it
+    center = tidy(x), tidy(y)
     radius = hypot(xmax - xmin, ymax - ymin) / 2
     heading = pi / 2
     if pose is not None:

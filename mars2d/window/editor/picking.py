@@ -7,7 +7,7 @@ from collections.abc import Collection
 import numpy as np
 import shapely
 
-from mars2d.core.plane import Outline, Point, edges_of
+from mars2d.core.plane import Point
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.item import Item, Kind
 from mars2d.window.screen.picking import body_at
@@ -58,15 +58,3 @@ def items_within(desk: Desk, a: Point, b: Point) -> list[Item]:
         if left <= xmin and xmax <= right and low <= ymin and ymax <= high:
             found.append(item)
     return found
-
-
-def edge_at(point: Point, outline: Outline, slack: float) -> tuple[int, Point] | None:
-    """Return a closed outline's nearest edge, by its index, and the nearest point on it.
-
-    None if that is farther than slack [m].
-    """
-    edges, here = [shapely.LineString(edge) for edge in edges_of(outline)], shapely.Point(point)
-    gaps = shapely.distance(edges, here)
-    k = int(np.argmin(gaps))
-    foot = edges[k].interpolate(edges[k].project(here))
-    return (k, (foot.x, foot.y)) if gaps[k] <= slack else None

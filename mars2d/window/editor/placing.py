@@ -8,7 +8,7 @@ import numpy as np
 
 from mars2d.addons.beacon import Beacon
 from mars2d.bodies.props.base import Prop
-from mars2d.core.plane import Point
+from mars2d.core.plane import Point, bounds_of, rectangle
 from mars2d.core.scene import Scene, faded
 from mars2d.output.layers.bodies import draw_prop, draw_robot
 from mars2d.scenario.robot import Robot
@@ -17,10 +17,12 @@ from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.handles import MARK, NOTCH, sized
 from mars2d.window.editor.item import Item, Motion, angle_of, tidy
 from mars2d.window.editor.picking import item_at
-from mars2d.window.editor.readout import size_of, turned
+from mars2d.window.editor.readout import sides, size_of, turned
 from mars2d.window.editor.tool import Drag, Tool
 
 GHOST = faded(MARK, 0.7)
+SQUARE = 1.0
+"""The side of an obstacle that is placed by a click, metres."""
 
 
 class Place(Tool):
@@ -117,6 +119,25 @@ class PlaceProp(Place):
     def ghost(self, scene: Scene, place: Point) -> None:
         """Draw a hollow prop."""
         draw_prop(scene, self._prop, np.array((*place, 0.0)), MARK, hollow=True)
+
+
+class PlaceRectangle(Place):
+    """Places rectangular obstacles."""
+
+    hint = "Click places a square, a drag gives it its size"
+
+    def added(self, draft: Draft, start: Point, end: Point, shift: bool) -> Draft:  # noqa: ARG002
+        """Place a rectangle between two corners, or a square about a point."""
+        (x, y), half = start, SQUARE / 2
+        corners = [start, self.desk.snapped(end)]
+        if end == start or x == corners[1][0] or y == corners[1][1]:
+            corners = [(tidy(x - half), tidy(y - half)), (tidy(x + half), tidy(y + half))]
+        return draft.added("outline", rectangle(*bounds_of(corners)))
+
+    def measure(self) -> str:
+        """Return the size."""
+        (left, low), _, (right, high), *_ = self.desk.draft.listed("outline")[-1]
+        return sides(right - left, high - low)
 
 
 class PlaceBeacon(Place):

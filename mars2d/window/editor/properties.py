@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
-from math import floor, log10
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -273,12 +272,9 @@ class Properties:
 
     def _row(self, subject: Subject, name: str, level: int = 0) -> Entry:
         """Return the row of a field."""
-        values = [getattr(part, name) for part in subject.parts]
-        numeric = all(isinstance(v, float | int) and not isinstance(v, bool) for v in values)
-        step = partial(self._step, subject, name) if numeric else None
         title, act = _title(name), partial(self._ask, subject, name)
         title = title if level else title.capitalize()
-        return Entry(title, act, value=subject.in_words(name), step=step, level=level)
+        return Entry(title, act, value=subject.in_words(name), level=level)
 
     # -- asking ---------------------------------------------------------------------------------
 
@@ -321,17 +317,6 @@ class Properties:
         field = TextField(text)
         field.select_all()
         self._dialogs.ask(label, Answer("apply", answer), field=field, doc=doc)
-
-    def _step(self, subject: Subject, name: str, way: int) -> None:
-        """Change a number by half a power of ten that fits it."""
-        value = getattr(subject.parts[0], name)
-        if isinstance(value, int):
-            changed: float = value + way
-        else:
-            size = abs(value) * (1 if way > 0 else 0.999)
-            step = 0.5 * 10.0 ** floor(log10(size)) if size else 0.1
-            changed = round((value + way * step) / step) * step
-        subject.set(name, round(changed, 12))
 
     def _open(self, title: str, entries: Sequence[Entry]) -> None:
         listed = [Entry(title), *entries]

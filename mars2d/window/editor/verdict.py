@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator
 from itertools import islice, pairwise
 from typing import NamedTuple
@@ -18,10 +17,6 @@ from mars2d.window.editor.item import Item
 
 MAX_FAULTS = 50
 """The search stops after this many faults."""
-MIN_INTERVAL = 0.1
-"""The shortest time between two judgements during a drag, seconds."""
-MIN_INTERVAL_COSTS = 8.0
-"""The same as a multiple of the time that the last judgement took."""
 
 
 class Fault(NamedTuple):
@@ -70,17 +65,12 @@ class Judge:
 
     def __init__(self, draft: Draft) -> None:
         """Judge the first draft."""
-        self.verdict = judge(draft)
-        self._draft, self._when, self._cost = draft, 0.0, 0.0
+        self.verdict, self._draft = judge(draft), draft
 
-    def of(self, draft: Draft, *, at_once: bool = True) -> Verdict:
-        """Return the verdict on a draft; without `at_once` it may be that on an earlier draft."""
-        now = time.perf_counter()
-        wait = 0.0 if at_once else max(MIN_INTERVAL, MIN_INTERVAL_COSTS * self._cost)
-        if draft is not self._draft and now - self._when >= wait:
+    def of(self, draft: Draft) -> Verdict:
+        """Return the verdict on a draft."""
+        if draft is not self._draft:
             self.verdict, self._draft = judge(draft), draft
-            self._when = time.perf_counter()
-            self._cost = self._when - now
         return self.verdict
 
 

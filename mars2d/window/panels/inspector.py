@@ -13,12 +13,11 @@ from mars2d.core.description import snake_case
 from mars2d.output.layers.forces import SLIP, SLIPPING
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
-from mars2d.window.panels.forcemeter import reading_of
-from mars2d.window.panels.forceplot import draw_force
 from mars2d.window.panels.readout import (
     MAX_MESSAGES,
     contacts_of,
     dynamics_of,
+    force_of,
     inbox,
     kind_of,
     rounded,
@@ -30,13 +29,12 @@ from mars2d.window.panels.sensorplot import TITLE, SensorPlot, plot_of
 from mars2d.window.screen.selection import Selection
 from mars2d.window.widgets.words import Word, write_line
 
-LEAST, LEAST_IN_CONTACT = 176.0, 268.0
-"""The least height of the inspector, points: with the state, and where there are forces with their
-plot."""
+LEAST = 176.0
+"""The least height of the inspector, points."""
 GAP = 9.0
 """The gap between two sections, points."""
-HEAD, ROW, FORCE, LINE = 36.0, 19.0, 112.0, 17.0
-"""The heights of the name, a row of numbers, the plot of forces and a line of text, points."""
+HEAD, ROW, LINE = 36.0, 19.0, 17.0
+"""The heights of the name, a row of numbers and a line of text, points."""
 CLOSE = 20.0
 """The room for the button that closes it, points."""
 LABEL = 80.0
@@ -49,15 +47,13 @@ DRAW_INTERVAL = 1 / 15
 class Inspector(RowsPanel):
     """Shows the state, contacts, forces, sensors and messages of one body.
 
-    clock: seconds; the inspector is drawn again a few times a second, and as soon as the body comes
-    to touch another or parts from it, since it stands beside the arrows.
-
-    selection: which body is shown; where none is, the inspector is closed. plays: whether somebody
-    drives it, who needs no plot of forces before there are any.
+    selection: which body is shown; where none is, the inspector is closed. clock: seconds; the
+    numbers are read again a few times a second, and as soon as the body comes to touch another or
+    parts from it, since it stands beside the arrows.
     """
 
     name, title, headed, frames, remembered = "inspector", "Inspector", False, False, False
-    column = 300.0
+    least = LEAST
 
     def __init__(
         self,
@@ -65,14 +61,13 @@ class Inspector(RowsPanel):
         selection: Selection,
         clock: Callable[[], float] = time.perf_counter,
     ) -> None:
-        """Start with nothing drawn."""
+        """Start with nothing read."""
         super().__init__(painter)
-        self.selection, self.plays, self._clock = selection, False, clock
-        self._image: pygame.Surface | None = None
+        self.selection, self._clock = selection, clock
         self._sections: list[Row] = []
         self._of: tuple[object, ...] = ()
         self._frame: Frame | None = None
-        self._drawn_at = 0.0
+        self._read_at = 0.0
 
     @property
     def is_open(self) -> bool:
@@ -83,38 +78,21 @@ class Inspector(RowsPanel):
         """Show none."""
         self.selection.body = None
 
-    def handle(self, event: pygame.Event) -> bool:
-        """Scroll by the wheel."""
-        self._image = None if event.type == pygame.MOUSEWHEEL else self._image
-        return super().handle(event)
-
     def heights(self, frame: Frame, width: float) -> tuple[float, float]:
         """Return the least and the wanted height at a width, points."""
-        self.least = LEAST_IN_CONTACT if frame.scenario.physics == "contact" else LEAST
-        least, wanted = super().heights(frame, width)
-        return max(least, self.least if width < 2 * self.column else LEAST), max(wanted, self.least)
-
-    def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:
-        """Draw the sections within a rectangle, as they were last seen or as they are now."""
-        self.rows(frame, 0.0)
-        if self._image is None or self._image.get_size() != rect.size:
-            self._image = pygame.Surface(rect.size, 0, 32)
-            self._image.fill(self.painter.theme.plate)
-            super().draw(self._image, self._image.get_rect(), frame)
-        surface.blit(self._image, rect)
+        return LEAST, max(super().heights(frame, width)[1], LEAST)
 
     def rows(self, frame: Frame, width: float) -> Sequence[Row]:  # noqa: ARG002
-        """Return the sections as they were last seen, or as they are now."""
-        body, ui, theme = self.selection.body, self.painter.ui, self.painter.theme
+        """Return the sections as they were last read, or as they are now."""
+        body = self.selection.body
         if body is None:
             return []
-        of = body, self.plays, touching(frame, body), frame.scenario, ui, theme
-        now = self._clock()
-        late = frame is not self._frame and now - self._drawn_at >= DRAW_INTERVAL
+        of = body, touching(frame, body), frame.scenario, self.painter.ui, self.painter.theme
+        late = frame is not self._frame and self._clock() - self._read_at >= DRAW_INTERVAL
         if of != self._of or late:
             self._sections = list(self._made(frame, body))
             self.scroll = self.scroll if of[:1] == self._of[:1] else 0.0
-            self._image, self._of, self._frame, self._drawn_at = None, of, frame, now
+            self._of, self._frame, self._read_at = of, frame, self._clock()
         return self._sections
 
     # -- sections -----------------------------------------------------------------------------
@@ -129,15 +107,11 @@ class Inspector(RowsPanel):
         yield self.stack(*state, gap)
         if frame.scenario.physics == "contact":
             yield self._headed("contacts", " · ".join(contacts_of(frame, body)) or "none")
-            reading = reading_of(frame, body)
-            if reading.force.any() or not self.plays:
-                plot = partial(draw_force, self.painter, frame, body, reading)
-                yield self.stack(Row(FORCE, plot), gap)
-        if dynamics := dynamics_of(frame, body):
-            yield self.stack(*(Row(ROW, partial(self._draw_row, *row)) for row in dynamics), gap)
+            numbers = [*force_of(frame, body), *dynamics_of(frame, body)]
+            yield self.stack(*(Row(ROW, partial(self._draw_row, *row)) for row in numbers), gap)
         for sensed in sensor_plots(frame, body):
             kind, key = snake_case(type(sensed.sensor).__name__), sensed.sensor.key
-            drawn = Row(sensed.height, partial(self._draw_sensor, sensed))
+            drawn = Row(sensed.height, partial(sensed.draw, self.painter))
             yield self._headed(key, "" if kind == key else kind, drawn)
         if body < len(robots) and any(each.carries_messages for each in frame.scenario.addons):
             heard = [
@@ -207,9 +181,6 @@ class Inspector(RowsPanel):
         if bar.width > 0:
             color = SLIP if slips else theme.effort
             pygame.draw.rect(surface, color, bar, border_radius=radius)
-
-    def _draw_sensor(self, plot: SensorPlot, surface: pygame.Surface, rect: pygame.Rect) -> None:
-        plot.draw(surface, rect, self.painter)
 
     def _draw_heading(
         self, title: str, more: str, surface: pygame.Surface, rect: pygame.Rect

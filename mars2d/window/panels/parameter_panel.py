@@ -20,7 +20,7 @@ from mars2d.window.panels.rows import Row, RowsPanel
 from mars2d.window.screen.player import Player
 from mars2d.window.screen.selection import Selection
 from mars2d.window.widgets.buttons import draw_icon
-from mars2d.window.widgets.slider import ValueSlider
+from mars2d.window.widgets.slider import Slider
 from mars2d.window.widgets.text_field import TextField
 from mars2d.window.widgets.words import Word, write_line
 from mars2d.world.timeline import Timeline
@@ -95,7 +95,7 @@ class ParameterPanel(RowsPanel):
         self._set_to, self._clock = set_to, clock
         self._known: tuple[Experiment | None, int | None] | None = None
         self._lines: list[Line] = []
-        self._sliders: dict[str, ValueSlider] = {}
+        self._sliders: dict[str, Slider] = {}
         self.places: dict[str, pygame.Rect] = {}  # of rows, by the names of parameters
         self.resets: dict[str, pygame.Rect] = {}
         self.focus: str | None = None  # the parameter that keys go to
@@ -191,9 +191,8 @@ class ParameterPanel(RowsPanel):
             self.typed.draw(surface, box.inflate(-round(10 * ui), 0), self.painter, SIZE * ui)
             above.width = box.left - 2 * pad - above.left
         write_line(surface, above, self.painter, [Word(text, theme.text, SIZE)], words)
-        slider = self._sliders.setdefault(name, ValueSlider())
-        ends = parameter.low, parameter.high
-        slider.draw(surface, line, self.painter, value, parameter.default, ends, held=held)
+        slider = self._sliders[name] = Slider(parameter.low, parameter.high)
+        slider.draw_value(surface, line, self.painter, value, parameter.default, held=held)
 
     def _words(self) -> tuple[str, Say]:
         if self._held is not None and self._anew:
@@ -323,10 +322,18 @@ class ParameterPanel(RowsPanel):
         return True
 
     def _focus_next(self, name: str, way: int) -> None:
-        """Let the next slider, or the one before, have the focus, and be seen."""
+        """Let the next slider, or the one before, have the focus."""
         names = [*self.parameters()]
+        self.focus_on(names[(names.index(name) + way) % len(names)])
+
+    def focus_on(self, name: str | None) -> None:
+        """Let a slider have the focus, and be seen; None: the first, of what is selected."""
         self.leave()
-        self.focus, self.said = names[(names.index(name) + way) % len(names)], ("", "info")
+        names = [line.parameter and line.parameter.name for line in self._look()]
+        if name is None:
+            last = max((k for k, found in enumerate(names) if found is None), default=0)
+            name = next((found for found in (*names[last:], *names) if found), None)
+        self.focus, self.said = name, ("", "info")
         top = 0.0
         for line in self._lines:
             if line.parameter is not None and line.parameter.name == self.focus:

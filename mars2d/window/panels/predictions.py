@@ -99,10 +99,10 @@ class Predictions(RowsPanel):
     # -- the panel --------------------------------------------------------------------------------
 
     def rows(self, frame: Frame, width: float) -> Sequence[Row]:  # noqa: ARG002
-        """Return the titles of the columns, and a row for each prediction."""
+        """Return the titles of the columns, and a row for each prediction, or why there is none."""
         found = self.reading.predictions
         each = [Row(ROW, partial(self._draw_row, prediction)) for prediction in found]
-        return [Row(TITLES, self._draw_titles), *each] if found else []
+        return [Row(TITLES, self._draw_titles), *each] if found else self._said(width)
 
     def heights(self, frame: Frame, width: float) -> tuple[float, float]:
         """Return the least and the wanted height; nothing measured yet makes neither lower."""
@@ -110,6 +110,9 @@ class Predictions(RowsPanel):
 
     def foot(self, width: float) -> Sequence[Row]:
         """Return lines about the run, and about values that could not be read."""
+        return self._said(width) if self.reading.predictions else ()
+
+    def _said(self, width: float) -> list[Row]:
         theme, reading = self.painter.theme, self.reading
         failed = reading.error is not None and reading.finished
         color = theme.error.ink if failed else theme.muted

@@ -3,23 +3,21 @@
 from __future__ import annotations
 
 import re
-from bisect import bisect_right
 from typing import Any
 
 import numpy as np
 
 from mars2d.bodies.drives.base import Drive
 from mars2d.core.description import snake_case
+from mars2d.core.materials import GRAVITY
 from mars2d.core.plane import wrap
 from mars2d.output.layers.forces import in_newtons
-from mars2d.record.contact import pair_forces
+from mars2d.record.contact import net_forces, pair_forces
 from mars2d.record.frame import Frame
+from mars2d.scenario.scenario import Scenario
 
 MAX_MESSAGES = 3
 """How many messages of the inbox are listed."""
-
-BLOCK = 65_536
-"""How many messages are searched at a time, from the last one backwards."""
 
 MINUS = "\N{MINUS SIGN}"
 
@@ -74,6 +72,26 @@ def dynamics_of(frame: Frame, body: int) -> list[Row]:
         ("energy", [("E", _digits(own, "J")), ("of all", _digits(whole, "J"))]),
         ("momentum", [("p", _digits(float(p), "N s")), ("of all", _digits(float(total), "N s"))]),
     ]
+
+
+def force_of(frame: Frame, body: int) -> list[Row]:
+    """Return the net mean contact force on a body in the last control step, and what holds it."""
+    rows, dt = frame.contacts, frame.scenario.sampling_time
+    pairs = pair_forces(rows, np.zeros(len(rows), dtype=int), dt)
+    net = float(np.hypot(*net_forces(pairs, [body], range(1))[0, :, 0]))
+    bound = holding_force(frame.scenario, body)
+    holds = "drive" if body < len(frame.scenario.robots) else "floor"
+    more = [(holds, in_newtons(bound))] if bound > 0 else []
+    return [("force", [("net", in_newtons(net)), *more])]
+
+
+def holding_force(scenario: Scenario, body: int) -> float:
+    """Return the largest force with which a drive, or the floor, holds a body, newtons."""
+    n = len(scenario.robots)
+    if body < n:
+        return scenario.robots[body].push
+    prop = scenario.props[body - n]
+    return prop.resting_friction * prop.inertia.mass * GRAVITY
 
 
 def command_words(drive: Drive, command: Any) -> list[tuple[str, str]]:
@@ -148,16 +166,12 @@ def inbox(frame: Frame, robot: int, most: int = MAX_MESSAGES) -> list[tuple[str,
     """Return a robot's last messages: the sender's name, the time of sending [s], the content."""
     rows, contents = frame.message_log()
     now = frame.time + 1e-6 * frame.scenario.sampling_time
-    end = bisect_right(rows["time"], now)
-    found: list[tuple[str, float, str]] = []
-    while end > 0 and len(found) < most:
-        begin = max(0, end - BLOCK)
-        block = rows[begin:end]
-        for k in np.flatnonzero((block["receiver"] == robot) & (block["arrival"] <= now))[::-1]:
-            row = block[k]
-            name = str(frame.scenario.robots[int(row["sender"])].name)
-            found.append((name, float(row["time"]), contents[int(row["content"])]))
-            if len(found) == most:
-                break
-        end = begin
-    return found
+    heard = np.flatnonzero((rows["receiver"] == robot) & (rows["arrival"] <= now))[-most:][::-1]
+    return [
+        (
+            str(frame.scenario.robots[int(row["sender"])].name),
+            float(row["time"]),
+            contents[int(row["content"])],
+        )
+        for row in rows[heard]
+    ]

@@ -12,9 +12,9 @@ from mars2d.record.frame import Frame
 from mars2d.window.widgets.dock import Panel
 from mars2d.window.widgets.words import Word, write_line
 
-NOTCH, BAR, THUMB, BESIDE = 38.0, 8.0, 4.0, 18.0
-"""How far a notch of the wheel scrolls, the room for the bar that shows where, its width, and the
-gap between two columns, points."""
+NOTCH, BAR, THUMB = 38.0, 8.0, 4.0
+"""How far a notch of the wheel scrolls, the room for the bar that shows where, and its width,
+points."""
 
 
 class Row(NamedTuple):
@@ -27,13 +27,11 @@ class Row(NamedTuple):
 class RowsPanel(Panel):
     """A panel of `rows` that scroll, above a `foot` of rows that stay.
 
-    least: the least height of both, points. column: the least width of a column of rows, points;
-    None for a single one. scroll: how far they are scrolled, points. cut: whether there was no room
-    for all when they were drawn last. room: for them then, points.
+    least: the least height of both, points. scroll: how far they are scrolled, points. cut: whether
+    there was no room for all when they were drawn last. room: for them then, points.
     """
 
     least = 72.0
-    column: float | None = None
     scroll = room = 0.0
     cut = False
 
@@ -51,10 +49,8 @@ class RowsPanel(Panel):
 
     def heights(self, frame: Frame, width: float) -> tuple[float, float]:
         """Return the least and the wanted height of the content at a width, points."""
-        rows, count = self.rows(frame, width), self._count(width)
-        tallest = max((row.height for row in rows), default=0.0) if count > 1 else 0.0
-        wanted = (_high(rows) + (count > 1) * tallest) / count + _high(self.foot(width))
-        return max(min(self.least, wanted), tallest), wanted
+        wanted = _high(self.rows(frame, width)) + _high(self.foot(width))
+        return min(self.least, wanted), wanted
 
     def handle(self, event: pygame.Event) -> bool:
         """Scroll by the wheel."""
@@ -68,37 +64,20 @@ class RowsPanel(Panel):
         rows, foot = self.rows(frame, width), self.foot(width)
         room = pygame.Rect(rect.topleft, (rect.width, rect.height - round(_high(foot) * ui)))
         self.room = room.height / ui
-        columns = self._flowed(rows, self._count(width))
-        self.cut = max(map(_high, columns)) > self.room + 2
+        self.cut = _high(rows) > self.room + 2
         if self.cut:  # the bar takes some of the width
-            columns = self._flowed(self.rows(frame, width - BAR), self._count(width))
-        whole = max(map(_high, columns))
+            rows = self.rows(frame, width - BAR)
+        whole = _high(rows)
         self.scroll = min(max(self.scroll, 0.0), max(0.0, whole - self.room))
         clip = surface.get_clip()
         surface.set_clip(room.clip(clip))
-        gap = round(BESIDE * ui)
-        wide = (room.width - self.cut * round(BAR * ui) + gap) // len(columns) - gap
-        for k, column in enumerate(columns):
-            area = pygame.Rect(room.left + k * (wide + gap), room.top, wide, room.height)
-            self._draw_rows(surface, column, area, room.top - self.scroll * ui)
+        wide = room.width - self.cut * round(BAR * ui)
+        area = pygame.Rect(room.topleft, (wide, room.height))
+        self._draw_rows(surface, rows, area, room.top - self.scroll * ui)
         if self.cut:
             self._draw_bar(surface, room, whole)
         surface.set_clip(clip)
         self._draw_rows(surface, foot, rect, room.bottom)
-
-    def _count(self, width: float) -> int:
-        """Return how many columns stand beside each other in a width, points."""
-        return 1 if self.column is None else max(1, int(width // self.column))
-
-    def _flowed(self, rows: Sequence[Row], count: int) -> list[list[Row]]:
-        """Return the rows of each column, which are filled in turn."""
-        columns: list[list[Row]] = [[] for _ in range(count)]
-        k = 0
-        for row in rows:
-            full = _high(columns[k]) + row.height > self.room
-            k += bool(columns[k]) and full and k + 1 < count
-            columns[k].append(row)
-        return columns
 
     def _draw_rows(
         self, surface: pygame.Surface, rows: Sequence[Row], area: pygame.Rect, top: float

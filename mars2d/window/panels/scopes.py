@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -16,18 +16,14 @@ from mars2d.bodies.colors import prop_colors
 from mars2d.core.errors import InputError
 from mars2d.core.scene import PALETTE
 from mars2d.core.usercode import name_of
-from mars2d.output.controls import CONTROLS
 from mars2d.output.raster.painter import Painter
-from mars2d.output.signals import Signal, as_csv, without_nothing
+from mars2d.output.signals import Signal, without_nothing
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.panels.forcemeter import span_of
-from mars2d.window.panels.trace import Trace, What
+from mars2d.window.panels.trace import Trace, What, span_of
 from mars2d.window.screen.player import Player
 from mars2d.window.screen.saving import Saver
 from mars2d.window.screen.viewpoint import wheel_notches
-from mars2d.window.widgets.actions import of_controls
-from mars2d.window.widgets.buttons import Buttons, draw_icon
 from mars2d.window.widgets.dock import Panel
 from mars2d.window.widgets.plot import (
     Limits,
@@ -41,6 +37,7 @@ from mars2d.window.widgets.plot import (
 from mars2d.window.widgets.words import GAP as WORD_GAP
 from mars2d.window.widgets.words import Word, write_line
 from mars2d.world.record import Record
+from mars2d.world.timeline import Timeline
 
 Float = NDArray[np.float64]
 
@@ -51,38 +48,30 @@ LEAST, WANTED = 56.0, 124.0
 """The least and the wanted height of a plot with its title, points."""
 HIGH = 86.0
 """The height from which on a plot has a line for the names of its curves, points."""
-SHARING = 2
-"""From how many plots on the least height of the panel does not grow."""
-BAR, LINE = 30.0, 16.0
-"""The heights of the buttons and of a line of text, points."""
+LINE = 16.0
+"""The height of a line of text, points."""
 NAMED = 6
 """The most curves of a plot whose names and numbers are written."""
 WIDTH, CROWD = 2.0, 12
 """The width of a curve, points, and the most curves of a plot that are drawn each: of more, their
 median and quartiles."""
-REMOVE = 18.0
-"""The side of the button that removes a plot, points."""
-
-INTERVAL, LONGEST, SHARE = 1 / 15, 0.25, 0.1
-"""The shortest and the longest time between two drawings while time passes, seconds, and the
-largest share of the time that they take."""
-SHORTEST = 10
-"""The least time that is shown, control steps."""
+INTERVAL, SHARE = 1 / 15, 0.1
+"""The shortest time between two drawings while time passes, seconds, and the largest share of the
+time that they take."""
+ZOOM, SHORTEST = 1.25, 10
+"""How far a notch of the wheel zooms in time, and the least time that is shown, control steps."""
 
 
 class _Plot(NamedTuple):
-    """A plot that was drawn: whose it is, where its curves lie and what the axes mean there.
+    """A plot that was drawn: where its curves lie in the panel, and what the axes mean there.
 
-    remove: where a press removes it, in pixels of the panel, as `area` is. colors, names: of the
-    curves. below: whether the names have a line of their own below the title.
+    colors, names: of the curves. below: whether the names have a line of their own below the title.
     """
 
-    trace: Trace
     signal: Signal
     area: pygame.Rect
     limits: Limits
     colors: Sequence[str]
-    remove: pygame.Rect
     names: Sequence[str]
     below: bool
 
@@ -90,8 +79,7 @@ class _Plot(NamedTuple):
 class Scopes(Panel):
     """Plots of columns of the record over all that was run, with the time shown as a cursor.
 
-    player: of the run, which a click in a plot takes to a row. actions: what the buttons do:
-    "scopes", which chooses what is plotted, "figure" and "table". clock: seconds.
+    player: of the run, which a click in a plot takes to a row. clock: seconds.
 
     traces: what is plotted, one below the other. span: the time shown, seconds; None: all. chosen:
     the body whose curve lies above a summary of many.
@@ -100,18 +88,13 @@ class Scopes(Panel):
     name, title, remembered = "scopes", "Scopes", False
 
     def __init__(
-        self,
-        painter: Painter,
-        player: Player,
-        actions: Mapping[str, Callable[[], None]],
-        clock: Callable[[], float] = time.perf_counter,
+        self, painter: Painter, player: Player, clock: Callable[[], float] = time.perf_counter
     ) -> None:
-        """Start closed, and with nothing chosen."""
+        """Start with the plots that the experiment's file names; else closed."""
         self.painter, self._player, self._clock = painter, player, clock
         self.traces: list[Trace] = []
         self.span: float | None = None
         self.chosen: int | None = None
-        self._buttons = Buttons([of_controls(("scopes", "figure", "table"), actions)])
         self._plots: list[_Plot] = []
         self._image: pygame.Surface | None = None
         self._place = pygame.Rect(0, 0, 0, 0)
@@ -120,8 +103,22 @@ class Scopes(Panel):
         self._drawn_at, self._cost = 0.0, 0.0
         self._end = 0.0  # of the time that is shown
         self._held: _Plot | None = None
+        robots = tuple(range(len(player.frame.scenario.robots)))
+        for what in self._named:
+            self.switch(what, robots if isinstance(what, str) else ())
 
     # -- what is plotted ----------------------------------------------------------------------
+
+    @property
+    def _named(self) -> Sequence[What]:
+        """The plots that the experiment's file names."""
+        source = self._player.source
+        return source.experiment.source.scopes if isinstance(source, Timeline) else ()
+
+    @property
+    def functions(self) -> list[Callable[[Any], Any]]:
+        """The functions among the plots that the experiment's file names."""
+        return [what for what in self._named if not isinstance(what, str)]
 
     def open(self) -> None:
         """Open it; where nothing is plotted, the robots' speeds are."""
@@ -151,17 +148,12 @@ class Scopes(Panel):
         self.wanted = bool(self.traces)
         self._image = None
 
-    def renew(self, functions: Sequence[Callable[[Any], Any]]) -> None:
-        """Take functions, of a file that was read again, in place of those of the same names."""
-        named = {name_of(function): function for function in functions}
-        for trace in self.traces:
+    def meet(self, scenario: Scenario) -> None:
+        """Take the functions of a file that was read again; forget bodies that are not there."""
+        named, count = {name_of(each): each for each in self.functions}, len(scenario.bodies)
+        for trace in [*self.traces]:
             if not isinstance(trace.what, str):
                 trace.what = named.get(trace.name, trace.what)
-
-    def meet(self, scenario: Scenario) -> None:
-        """Forget the bodies that a scenario does not have."""
-        count = len(scenario.bodies)
-        for trace in [*self.traces]:
             bodies = tuple(body for body in trace.bodies if body < count)
             if trace.bodies and not bodies:
                 self.traces.remove(trace)
@@ -187,10 +179,6 @@ class Scopes(Panel):
 
         saver.save("figure", ".png", write)
 
-    def save_table(self, frame: Frame, saver: Saver) -> None:
-        """Save the numbers of what is plotted, of all that was run."""
-        saver.table(lambda: as_csv(*self._signals(frame)))
-
     def _signals(self, frame: Frame) -> tuple[Record, list[Signal]]:
         """Return the record, and all signals in each of its rows."""
         record = self._player.source.recorded
@@ -205,13 +193,13 @@ class Scopes(Panel):
         """Return the least and the wanted height, points."""
         count = max(len(self.traces), 1)
         plots = max(count, len(self._plots))
-        return LEAST * min(count, SHARING) + FOOT + BAR, WANTED * plots + FOOT + BAR
+        return LEAST * min(count, 2) + FOOT, WANTED * plots + FOOT
 
     def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:
         """Draw the plots, and over them the cursor."""
         ui, theme = self.painter.ui, self.painter.theme
         of = rect.size, ui, theme, self.span, len(self.traces), frame.scenario, self.chosen
-        interval = min(max(INTERVAL, self._cost / SHARE), LONGEST)
+        interval = max(INTERVAL, self._cost / SHARE)
         late = frame is not self._frame and self._clock() - self._drawn_at >= interval
         if self._image is None or of != self._of or late:
             begin = self._clock()
@@ -224,22 +212,12 @@ class Scopes(Panel):
         surface.blit(self._image, rect)
         for plot in self._plots:
             self._draw_cursor(surface, plot, frame)
-        bar = pygame.Rect(rect.left, 0, rect.width, round(BAR * ui))
-        bar.bottom = rect.bottom
-        self._buttons.draw(surface, bar, self.painter, self.pointer)
-        whole = self.span is None
-        shown = "all that was run" if whole else f"{self.span:.3g} s; wheel out for more"
-        shown = self.painter.fonts.shorten(shown, 11.5 * ui, 0.55 * rect.width)
-        self.painter.write(surface, shown, 11.5 * ui, theme.muted, midright=bar.midright)
-        self._buttons.draw_tip(surface, self.painter, self.pointer)
 
     def _draw_plots(self, surface: pygame.Surface, frame: Frame) -> None:
         """Draw the plots for which there is room, and say what is missing."""
         ui, record, fonts = self.painter.ui, self._player.source.recorded, self.painter.fonts
         read = [
-            (trace, without_nothing(signal))
-            for trace in self.traces
-            for signal in trace.read(record, frame)
+            without_nothing(signal) for trace in self.traces for signal in trace.read(record, frame)
         ]
         texts = [
             line
@@ -247,10 +225,10 @@ class Scopes(Panel):
             if trace.error
             for line in fonts.wrap(f"{trace.name}: {trace.error}", 12 * ui, surface.get_width(), 4)
         ]
-        height = surface.get_height() - round((FOOT + BAR) * ui)
+        height = surface.get_height() - round(FOOT * ui)
         fit = max(1, int((height / ui - LINE * len(texts)) // LEAST))
         if len(read) > fit:
-            names = ", ".join(dict.fromkeys(signal.name for _, signal in read[fit:]))
+            names = ", ".join(dict.fromkeys(signal.name for signal in read[fit:]))
             texts.append(fonts.shorten(f"no room for {names}", 12 * ui, surface.get_width()))
         for k, text in enumerate(texts):
             image = fonts.render(text, 12 * ui, self.painter.theme.error.ink)
@@ -258,11 +236,11 @@ class Scopes(Panel):
         top, read = round(LINE * len(texts) * ui), read[:fit]
         start, end = self._shown(frame, max(len(record) - 1, frame.iteration))
         high, self._plots = (height - top) // max(1, len(read)), []
-        for k, (trace, signal) in enumerate(read):
+        for k, signal in enumerate(read):
             place = pygame.Rect(0, top + k * high, surface.get_width(), high)
             last = k == len(read) - 1
             self._plots.append(
-                self._draw_plot(surface, place, trace, signal, frame, (start, end), last=last)
+                self._draw_plot(surface, place, signal, frame, (start, end), last=last)
             )
 
     def _shown(self, frame: Frame, newest: int) -> tuple[float, float]:
@@ -279,7 +257,6 @@ class Scopes(Panel):
         self,
         surface: pygame.Surface,
         place: pygame.Rect,
-        trace: Trace,
         signal: Signal,
         frame: Frame,
         shown: tuple[float, float],
@@ -289,12 +266,7 @@ class Scopes(Panel):
         """Draw the axes and the curves of a signal; last: numbers of time stand below it."""
         (start, end), ui, dt = shown, self.painter.ui, frame.scenario.sampling_time
         names = self._names(frame.scenario, signal)
-        words = f"{signal.name} [{signal.unit}]  " + "   ".join(f"{name} 0.0000" for name in names)
-        below = (
-            1 < len(names) <= NAMED
-            and place.height >= HIGH * ui
-            and self.painter.fonts.width(words, 12 * ui) + (REMOVE + 10) * ui > place.width
-        )
+        below = 1 < len(names) <= NAMED and place.height >= HIGH * ui
         head = TITLE + LINE if below else TITLE
         top, left = place.top + round(head * ui), place.left + round(LEFT * ui)
         area = pygame.Rect(left, top, place.right - left - 2, place.bottom - round(GAP * ui) - top)
@@ -313,10 +285,7 @@ class Scopes(Panel):
             )
             draw_curve(surface, self.painter, lines, colors[k], WIDTH)
         surface.set_clip(before)
-        remove = pygame.Rect(0, 0, round(REMOVE * ui), round(REMOVE * ui))
-        remove.midright = place.right, place.top + round(TITLE / 2 * ui)
-        draw_icon(surface, CONTROLS["close"].icon, self.painter.theme.muted, remove)
-        return _Plot(trace, signal, area, limits, colors, remove, names, below)
+        return _Plot(signal, area, limits, colors, names, below)
 
     def _single(self, signal: Signal) -> Sequence[int]:
         """Return the curves that are drawn each: of many only those of the chosen body."""
@@ -350,7 +319,7 @@ class Scopes(Panel):
             ((x, _),) = plot.limits.pixels(area, np.array([frame.time]), np.zeros(1)).tolist()
             surface.fill(theme.selected, (round(x), area.top, max(1, round(ui)), area.height))
         high, unit = round(LINE * ui), f" [{signal.unit}]" if signal.unit else ""
-        line = pygame.Rect(self._place.left, 0, plot.remove.left - round(4 * ui), high)
+        line = pygame.Rect(self._place.left, 0, self._place.width, high)
         line.centery = area.top - round((TITLE / 2 + (LINE if plot.below else 0)) * ui)
         title = Word(f"{signal.name}{unit}", theme.ink, 12, bold=True)
         free = write_line(surface, line, self.painter, [title])
@@ -371,9 +340,8 @@ class Scopes(Panel):
             muted = Word(text, self.painter.theme.muted, 12)
             write_line(surface, rect, self.painter, [muted], own)
             return
-        short = (numbers, plot.names) if plot.signal.bodies else (plot.names, numbers)
         size, gap = 12 * self.painter.ui, round(WORD_GAP * self.painter.ui)
-        for texts in (both, *short):
+        for texts in (both, numbers):
             widths = [self.painter.fonts.width(text, size) + gap for text in texts]
             if sum(widths) <= rect.width:
                 words = [Word(*each, 12) for each in zip(texts, plot.colors, strict=True)]
@@ -392,32 +360,21 @@ class Scopes(Panel):
     # -- the mouse ----------------------------------------------------------------------------
 
     def handle(self, event: pygame.Event) -> bool:
-        """Go to the time of a press, and follow a drag; remove a plot; show more or less time."""
+        """Go to the time of a press, and follow a drag; show more or less time by the wheel."""
         if event.type == pygame.MOUSEWHEEL:
-            self._zoom(wheel_notches(event))
+            self.zoom(wheel_notches(event))
             return False
         if event.type == pygame.MOUSEMOTION and self._held is not None:
             self._go_to(self._held, event.pos[0])
         elif event.type == pygame.MOUSEBUTTONUP:
             self._held = None
         elif event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
-            return self._press(event)
-        return False
-
-    def _press(self, event: pygame.Event) -> bool:
-        x, y = event.pos
-        at = x - self._place.left, y - self._place.top
-        if self._buttons.handle(event):
-            return False
-        for plot in self._plots:
-            if plot.remove.collidepoint(at):
-                self.traces.remove(plot.trace)
-                self.wanted, self._image, self._plots = bool(self.traces), None, []
-                return False
-            if plot.area.collidepoint(at):
-                self._held = plot
-                self._go_to(plot, x)
-                return True
+            x, y = event.pos
+            at = x - self._place.left, y - self._place.top
+            self._held = next((plot for plot in self._plots if plot.area.collidepoint(at)), None)
+            if self._held is not None:
+                self._go_to(self._held, x)
+            return self._held is not None
         return False
 
     def _go_to(self, plot: _Plot, x: int) -> None:
@@ -428,12 +385,12 @@ class Scopes(Panel):
             when = limits.start + share * (limits.end - limits.start)
             self._player.go(max(0, round(when / self._frame.scenario.sampling_time)))
 
-    def _zoom(self, notches: float) -> None:
+    def zoom(self, notches: float) -> None:
         """Show less time by notches of the wheel, or more, until it is all."""
         if not self._plots or self._frame is None:
             return
         dt, limits = self._frame.scenario.sampling_time, self._plots[0].limits
         whole = max(len(self._plots[0].signal.values) * dt, span_of(dt))
-        span = (limits.end - limits.start) * 1.25**-notches
+        span = (limits.end - limits.start) * ZOOM**-notches
         self.span = None if span >= whole else max(span, SHORTEST * dt)
         self._end = limits.end

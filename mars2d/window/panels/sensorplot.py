@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import pi
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,18 +13,14 @@ from numpy.typing import NDArray
 from mars2d.core.quantity import Quantity
 from mars2d.output.raster.brushes import rgba
 from mars2d.output.raster.painter import Painter
-from mars2d.output.raster.strokes import hairlines
-from mars2d.output.raster.theme import mixed
 from mars2d.record.frame import Float, Frame
 from mars2d.sensors.base import Sensor
-from mars2d.sensors.bumper import LIT
-from mars2d.window.panels.forcemeter import span_of
-from mars2d.window.panels.forceplot import stretches
+from mars2d.window.panels.trace import span_of
 from mars2d.window.widgets.plot import Limits, draw_curve, polylines
 from mars2d.window.widgets.words import Word, write_line
 
-ROW, FLAG_ROW, FAN, CELLS, BARS = 24.0, 15.0, 62.0, 18.0, 40.0
-"""The heights of a line over time, a flag, a fan of bearings, colours and bars, points."""
+ROW, CELLS, BARS = 24.0, 18.0, 40.0
+"""The heights of a line over time, colours and bars, points."""
 
 TITLE = 21.0
 """The height of a plot's title, points."""
@@ -42,7 +37,7 @@ class SensorPlot(NamedTuple):
 
     sensor: Sensor
     height: float
-    draw: Callable[[pygame.Surface, pygame.Rect, Painter], None]
+    draw: Callable[[Painter, pygame.Surface, pygame.Rect], None]
 
 
 class History(NamedTuple):
@@ -57,36 +52,23 @@ class History(NamedTuple):
 
 
 def plot_of(frame: Frame, robot: int, sensor: Sensor, reading: Any) -> SensorPlot:
-    """Return the plot of a sensor's readings on a robot."""
+    """Return the plot of a sensor's readings on a robot: lines over time, colours, or bars.
+
+    Bars are those of now, from left to right as the robot sees where they are of beams.
+    """
     now = np.asarray(reading)
     quantities = sensor.quantities or (Quantity("value"),)
-    kinds = tuple(quantity.kind for quantity in quantities)
-    past = history(frame, robot, sensor, now)
-    color = frame.scenario.colors[robot]
-    angles = np.asarray(getattr(sensor, "angles", ()), dtype=float)
-    if now.dtype.kind == "b":
-        flags = past.values.reshape(len(past.values), -1)
-        if flags.shape[1] <= MAX_LINES:
-            names = tuple(_degrees(angle) for angle in angles.tolist())
-            if len(names) != flags.shape[1]:
-                names = tuple(map(str, range(MAX_LINES)))
-            bands = _Flags(past._replace(values=flags), names)
-            return SensorPlot(sensor, FLAG_ROW * flags.shape[1], bands)
-        return SensorPlot(sensor, CELLS, _Cells(_lit(now.ravel()[None, ::-1])))
-    if kinds == ("color",) and now.shape[-1:] == (3,):
+    past, color = history(frame, robot, sensor, now), frame.scenario.colors[robot]
+    if quantities[0].kind == "color" and now.shape[-1:] == (3,):
         strip = now[None, ::-1] if now.ndim == 2 else past.values[None]
         return SensorPlot(sensor, CELLS, _Cells(strip))
-    if kinds == ("distance",) and now.ndim == 1 and angles.shape == now.shape and len(now) > 1:
-        return SensorPlot(sensor, FAN, _Fan(angles, now, _range(sensor, now), color))
-    if kinds == ("distance", "angle") and now.ndim == 2:
-        colors = frame.scenario.colors if len(now) == len(frame.scenario.robots) else (color,)
-        return SensorPlot(sensor, FAN, _Sightings(now, _range(sensor, now[:, 0]), colors))
     numbers = past.values.reshape(len(past.values), -1).astype(float)
     if numbers.shape[1] <= MAX_LINES:
         named = quantities if len(quantities) == numbers.shape[1] else None
         lines = _Lines(past._replace(values=numbers), named, quantities[0], color)
         return SensorPlot(sensor, ROW * numbers.shape[1], lines)
-    return SensorPlot(sensor, BARS, _Bars(numbers[-1], color))
+    beams = np.shape(getattr(sensor, "angles", ())) == now.shape
+    return SensorPlot(sensor, BARS, _Bars(numbers[-1, ::-1] if beams else numbers[-1], color))
 
 
 def history(frame: Frame, robot: int, sensor: Sensor, now: NDArray[Any]) -> History:
@@ -102,20 +84,6 @@ def history(frame: Frame, robot: int, sensor: Sensor, now: NDArray[Any]) -> Hist
     return History(values, (begin - end) / shown + 1, (len(past) - end) / shown + 1)
 
 
-def _range(sensor: Sensor, distances: Float) -> float:
-    """Return a sensor's range, or the farthest distance that it reads now."""
-    reach = getattr(sensor, "range", None)
-    finite = distances[np.isfinite(distances)]
-    seen = float(finite.max(initial=0.0)) or 1.0
-    return float(reach) if isinstance(reach, (int, float)) and reach < 20 * seen else 1.2 * seen
-
-
-def _lit(flags: NDArray[np.bool_]) -> Float:
-    """Return the colours (..., 3) of flags."""
-    lit = np.array(rgba(LIT)[:3]) / 255
-    return np.where(flags[..., None], lit, np.nan)
-
-
 @dataclass(frozen=True, slots=True)
 class _Lines:
     """Numbers, as a line over time each."""
@@ -125,7 +93,7 @@ class _Lines:
     quantity: Quantity
     color: str
 
-    def __call__(self, surface: pygame.Surface, rect: pygame.Rect, painter: Painter) -> None:
+    def __call__(self, painter: Painter, surface: pygame.Surface, rect: pygame.Rect) -> None:
         ui, theme = painter.ui, painter.theme
         values, height = self.history.values, round(ROW * ui)
         several = values.shape[1] > 1
@@ -174,115 +142,12 @@ def _line(
 
 
 @dataclass(frozen=True, slots=True)
-class _Flags:
-    """Flags, as a band over time each, filled while set."""
-
-    history: History
-    names: tuple[str, ...]
-
-    def __call__(self, surface: pygame.Surface, rect: pygame.Rect, painter: Painter) -> None:
-        ui, theme = painter.ui, painter.theme
-        values, height = self.history.values, round(FLAG_ROW * ui)
-        several = values.shape[1] > 1
-        room = round(NAME * ui) if several else 0
-        lit = theme.shade(LIT)
-        for k in range(values.shape[1]):
-            top = rect.top + k * height
-            area = pygame.Rect(
-                rect.left + room, top + 3, rect.width - room - round(VALUE / 2 * ui), height - 6
-            )
-            surface.fill(theme.track, (area.left, area.centery, area.width, 1))
-            x = area.left + area.width * np.linspace(
-                self.history.first, self.history.last, len(values)
-            )
-            for a, b in stretches(values[:, k]):
-                left, right = float(x[a]), float(x[min(b, len(x) - 1)])
-                surface.fill(lit, (left, area.top, max(2, right - left), area.height))
-            now = bool(values[-1, k])
-            names = [Word(self.names[k], theme.text, 12)] if several else []
-            value = Word(str(now), lit if now else theme.muted, 12, bold=now)
-            row = pygame.Rect(rect.left, area.top, rect.width, area.height)
-            write_line(surface, row, painter, names, [value])
-
-
-@dataclass(frozen=True, slots=True)
-class _Fan:
-    """Distances over the bearings of beams; the left of the robot is on the left."""
-
-    angles: Float
-    distances: Float
-    reach: float
-    color: str
-
-    def __call__(self, surface: pygame.Surface, rect: pygame.Rect, painter: Painter) -> None:
-        low, high = float(self.angles.min()), float(self.angles.max())
-        area = _bearings(surface, rect, painter, (low, high), self.reach)
-        ink = painter.theme.shade(self.color)
-        far = np.minimum(np.nan_to_num(self.distances, nan=self.reach), self.reach)
-        x = area.right - (self.angles - low) / max(high - low, 1e-9) * area.width
-        y = area.bottom - far / self.reach * area.height
-        points = np.column_stack([x, y])
-        foot = [(area.left, area.bottom), (area.right, area.bottom)]
-        outline = [*points.tolist(), *foot]
-        pygame.draw.polygon(surface, mixed(ink, painter.theme.plate, 0.2), outline)
-        hairlines(surface, rgba(ink)[:3], points, 1.4 * painter.ui)
-
-
-@dataclass(frozen=True, slots=True)
-class _Sightings:
-    """Distances and bearings of things, as a stem each."""
-
-    rows: Float
-    reach: float
-    colors: tuple[str, ...]
-
-    def __call__(self, surface: pygame.Surface, rect: pygame.Rect, painter: Painter) -> None:
-        area = _bearings(surface, rect, painter, (-pi, pi), self.reach)
-        for i in np.flatnonzero(np.isfinite(self.rows).all(axis=1)).tolist():
-            distance, bearing = self.rows[i].tolist()
-            ink = rgba(painter.theme.shade(self.colors[i % len(self.colors)]))[:3]
-            x = area.centerx - bearing / (2 * pi) * area.width
-            y = area.bottom - min(distance / self.reach, 1.0) * area.height
-            pygame.draw.aaline(surface, ink, (x, area.bottom), (x, y))
-            pygame.draw.aacircle(surface, ink, (x, y), 3.2 * painter.ui)
-
-
-def _bearings(
-    surface: pygame.Surface,
-    rect: pygame.Rect,
-    painter: Painter,
-    angles: tuple[float, float],
-    reach: float,
-) -> pygame.Rect:
-    """Draw the axes of bearings and distances; return the rectangle between them."""
-    ui, theme = painter.ui, painter.theme
-    room = round(44 * ui)
-    area = pygame.Rect(
-        rect.left + room, rect.top + round(4 * ui), rect.width - room, rect.height - round(20 * ui)
-    )
-    for share in (0.0, 0.5, 1.0):
-        y = area.bottom - round(share * area.height)
-        surface.fill(theme.grid if share else theme.grid_axis, (area.left, y, area.width, 1))
-        if share:
-            place, word = (area.left - 6 * ui, y), f"{share * reach:.3g} m"
-            painter.write(surface, word, 11 * ui, theme.muted, midright=place)
-    low, high = angles
-    ahead = 0.0 if low < 0 < high else (low + high) / 2
-    for side, angle in zip(("topleft", "midtop", "topright"), (high, ahead, low), strict=True):
-        x = area.right - round((angle - low) / max(high - low, 1e-9) * area.width)
-        surface.fill(theme.grid, (x, area.top, 1, area.height))
-        image = painter.fonts.render(_degrees(angle), 11 * ui, theme.muted)
-        surface.blit(image, image.get_rect(**{side: (x, area.bottom + round(2 * ui))}))
-    return area
-
-
-@dataclass(frozen=True, slots=True)
 class _Cells:
     """Colours side by side: of pixels, or of one pixel over time; nan is drawn empty."""
 
     colors: Float
 
-    def __call__(self, surface: pygame.Surface, rect: pygame.Rect, painter: Painter) -> None:
+    def __call__(self, painter: Painter, surface: pygame.Surface, rect: pygame.Rect) -> None:
         ground = np.array(rgba(painter.theme.track)[:3]) / 255
         colors = np.where(np.isfinite(self.colors), self.colors, ground)
         pixels = np.rint(255 * np.clip(colors, 0, 1)).astype(np.uint8)
@@ -299,7 +164,7 @@ class _Bars:
     values: Float
     color: str
 
-    def __call__(self, surface: pygame.Surface, rect: pygame.Rect, painter: Painter) -> None:
+    def __call__(self, painter: Painter, surface: pygame.Surface, rect: pygame.Rect) -> None:
         values = np.where(np.isfinite(self.values), self.values, 0.0)
         low, high = min(0.0, float(values.min())), max(0.0, float(values.max()))
         span = (high - low) or 1.0
@@ -318,13 +183,9 @@ class _Bars:
 def _in_words(value: float, quantity: Quantity) -> str:
     """Return a number in words, with its unit; angles in degrees."""
     if quantity.kind == "angle" and np.isfinite(value):
-        return _degrees(value)
+        return f"{round(float(np.degrees(value))):d}°".replace("-", "\N{MINUS SIGN}")
     if not np.isfinite(value):
         return "nothing" if np.isnan(value) or value > 0 else str(value)
     text = f"{value:.3f}" if abs(value) < 10 else f"{value:.4g}"
     unit = quantity.unit.replace("^2", "²")
     return f"{text} {unit}".replace("-", "\N{MINUS SIGN}").strip()
-
-
-def _degrees(angle: float) -> str:
-    return f"{round(float(np.degrees(angle))):d}°".replace("-", "\N{MINUS SIGN}")

@@ -1,8 +1,7 @@
-"""Traces: signals of a run that grows, of which only the new rows are computed."""
+"""Traces: the signals of a run that goes on."""
 
 from __future__ import annotations
 
-from bisect import bisect_left
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
@@ -13,7 +12,6 @@ from numpy.typing import NDArray
 from mars2d.core.errors import LawError, Mars2dError, shown
 from mars2d.core.usercode import called, name_of
 from mars2d.output.signals import Signal, signals_of_bodies
-from mars2d.record.columns import Column
 from mars2d.record.frame import Frame
 from mars2d.record.rows import COLUMNS
 from mars2d.world.record import Record
@@ -23,12 +21,14 @@ Float = NDArray[np.float64]
 What = str | Callable[[Any], Any]
 """The name of a column, as `Record.plot_signals` has it, or a function of the record."""
 
+MIN_STEPS, MIN_SECONDS = 100, 5.0
+"""Plots over time cover at least this many control steps, and this many seconds."""
 FEW = 6
 """The most numbers of a body's reading that are drawn as curves."""
 
 
 class Trace:
-    """The signals of a column, or of a function of the user's own, while their record grows.
+    """The signals of a column, or of a function of the user's own.
 
     bodies: indices of `Scenario.bodies`. error: why there is no signal, or "".
     """
@@ -37,10 +37,6 @@ class Trace:
         """Start with nothing read."""
         self.what, self.bodies = what, bodies
         self.error = ""
-        self._record: Record | None = None
-        self._kept: list[tuple[Signal, Column]] = []
-        self._rows = 0  # of the record, that are kept
-        self._of_bodies = bodies
 
     @property
     def name(self) -> str:
@@ -54,76 +50,30 @@ class Trace:
         """
         self.error = ""
         try:
-            if isinstance(self.what, str):
-                return self._column(self.what, record, frame)
-            return _own(self.name, self.what, record) if len(record) else []
+            if not isinstance(self.what, str):
+                return _own(self.name, self.what, record) if len(record) else []
+            whole = _with_present(record, frame)
+            found = signals_of_bodies(whole, self.what, self.bodies) if len(whole) else []
+            return [_flat(each) for each in found]
         except Mars2dError as error:
             self.error = str(error).removeprefix("columns: ")
-            self._kept, self._rows = [], 0
             return []
 
-    def _column(self, name: str, record: Record, frame: Frame) -> list[Signal]:
-        if not self._goes_on(record):
-            self._kept, self._rows = [], 0
-        self._record, self._of_bodies = record, self.bodies
-        part, first = self._part(record, frame)
-        if not len(part):
-            return []
-        found = [_flat(each) for each in signals_of_bodies(part, name, self.bodies)]
-        if not self._kept:
-            self._kept = [
-                (each, Column(each.values.shape[1:], each.values.dtype, 64)) for each in found
-            ]
-        result = []
-        for (_, column), each in zip(self._kept, found, strict=True):
-            column.write_block(self._rows, each.values[first:])
-            count = self._rows + len(part) - first
-            result.append(replace(each, values=column.upto(count)))
-        self._rows = len(record)
-        return result
 
-    def _goes_on(self, record: Record) -> bool:
-        """Return whether a record has the rows that are kept, perhaps with more behind them."""
-        before, last = self._record, self._rows - 1
-        if before is None or last < 0 or not self._kept:
-            return False
-        return (
-            self.bodies == self._of_bodies
-            and record.scenario is before.scenario
-            and len(record) > last
-            and np.array_equal(record.pose[last], before.pose[last])
-            and np.array_equal(record.prop_pose[last], before.prop_pose[last])
-        )
-
-    def _part(self, record: Record, frame: Frame) -> tuple[Record, int]:
-        """Return the new rows of a record, after one that is known, and how many are known."""
-        start = max(self._rows - 1, 0)
-        dt = record.scenario.sampling_time
-        columns: dict[str, Any] = {name: getattr(record, name)[start:] for name in COLUMNS}
-        sensors = {name: values[start:] for name, values in record.sensors.items()}
-        if frame.iteration == len(record) and abs(frame.time - len(record) * dt) < 1e-6 * dt:
-            row = _row_of(frame)
-            columns = {name: np.concatenate([columns[name], row[name][None]]) for name in columns}
-            sensors = {
-                name: _with_reading(values, frame, name, record.sensor_robots[name])
-                for name, values in sensors.items()
-            }
-        begin = bisect_left(record.contacts["time"], (start - 1.5) * dt)
-        interventions = tuple(
-            replace(each, row=each.row - start)
-            for each in record.interventions
-            if each.row >= start
-        )
-        part = replace(
-            record,
-            **columns,
-            sensors=sensors,
-            contacts=record.contacts[begin:],
-            messages=record.messages[:0],
-            interventions=interventions,
-            branches=(),
-        )
-        return part, self._rows - start
+def _with_present(record: Record, frame: Frame) -> Record:
+    """Return a record with the row of a frame behind it, if it is the one that comes next."""
+    dt = record.scenario.sampling_time
+    if frame.iteration != len(record) or abs(frame.time - len(record) * dt) >= 1e-6 * dt:
+        return record
+    row = _row_of(frame)
+    columns: dict[str, Any] = {
+        name: np.concatenate([getattr(record, name), row[name][None]]) for name in COLUMNS
+    }
+    sensors = {
+        name: _with_reading(values, frame, name, record.sensor_robots[name])
+        for name, values in record.sensors.items()
+    }
+    return replace(record, **columns, sensors=sensors)
 
 
 def _row_of(frame: Frame) -> dict[str, Any]:
@@ -188,3 +138,8 @@ def _own(name: str, function: Callable[[Any], Any], record: Record) -> list[Sign
             raise LawError(f"{name} returned {shown(made)}: {expected}")
     names = tuple(map(str, named)) if isinstance(made, Mapping) else (name,)
     return [Signal(name, "", np.stack(curves, axis=1), (), curves=names)]
+
+
+def span_of(sampling_time: float) -> float:
+    """Return the time that a plot over time covers at least, seconds."""
+    return max(MIN_SECONDS, MIN_STEPS * sampling_time)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping, Sequence
-from math import dist, inf
 
 import pygame
 
@@ -15,13 +14,10 @@ from mars2d.window.run.mouse import Handle, Pixel
 from mars2d.window.run.timebar import TimeBar, TimeState
 from mars2d.window.screen.player import SPEEDS, Player
 from mars2d.window.screen.source import Playback, Source
-from mars2d.window.screen.viewpoint import wheel_notches
 from mars2d.window.widgets.slider import SpeedSlider
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
 
-DOUBLE, NEAR = 0.35, 6
-"""The longest time between two clicks that are one double click, seconds; how far apart, pixels."""
 MARK_INTERVAL = 0.25
 """How often the log of contacts is read for collisions, seconds."""
 
@@ -38,7 +34,6 @@ class Controls:
         known = marks_of(marked.record) if isinstance(marked, Playback) else {}  # they stay
         self._marks = Marks(marked).rows if isinstance(marked, Timeline) else lambda: known
         self.time_bar, self.slider = TimeBar(), SpeedSlider(SPEEDS)
-        self._pressed: tuple[float, Pixel, int, bool] = -inf, (0, 0), 0, False
         self.handles: list[Handle] = [
             (self.time_bar.hit, self._scrub),
             (self.slider.hit, self._choose_speed),
@@ -88,37 +83,6 @@ class Controls:
             live=live,
         )
 
-    def handle(self, event: pygame.Event) -> bool:
-        """Zoom the time bar; return whether the event does so.
-
-        The wheel over it zooms, with Shift it shows another part. The button or a double click
-        shows all; the clicks leave the time as it was.
-        """
-        bar = self.time_bar
-        if event.type == pygame.MOUSEWHEEL and bar.covers(pygame.mouse.get_pos()):
-            if pygame.key.get_mods() & pygame.KMOD_SHIFT or event.x:
-                bar.move(event.x or -wheel_notches(event))
-            else:
-                bar.zoom(wheel_notches(event), pygame.mouse.get_pos()[0])
-            return True
-        if event.type != pygame.MOUSEBUTTONDOWN or event.button != pygame.BUTTON_LEFT:
-            return False
-        if bar.shows_all_at(event.pos):
-            bar.show_all()
-            return True
-        if not bar.hit(event.pos):
-            return False
-        now, player = time.monotonic(), self._player
-        since, where, row, playing = self._pressed
-        if bar.zoomed and now - since < DOUBLE and dist(where, event.pos) < NEAR:
-            self._pressed = -inf, (0, 0), 0, False
-            bar.show_all()
-            player.go(row)
-            player.paused = player.paused and not playing
-            return True
-        self._pressed = now, event.pos, player.source.row, player.playing
-        return False
-
     def _scrub(self, pixel: Pixel) -> None:
         """Go to the row at a pixel of the time bar."""
         row = self.time_bar.row_at(pixel[0])
@@ -128,7 +92,7 @@ class Controls:
     def _choose_speed(self, pixel: Pixel) -> None:
         """Play at the speed at a pixel of the slider."""
         speed = self.slider.speed_at(pixel[0])
-        if speed is not None and speed != self._player.speed:
+        if speed != self._player.speed:
             self._player.set_speed(speed)
 
 

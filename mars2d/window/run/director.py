@@ -9,14 +9,13 @@ import numpy as np
 import pygame
 
 from mars2d.core.errors import InputError, Mars2dError
-from mars2d.scenario.changes import alike, carried, check_same, with_poses, without_body
+from mars2d.scenario.changes import alike, carried, check_same, with_poses
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.run.driver import ARROWS, LETTERS, Driver
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.player import Player
-from mars2d.window.widgets.clipboard import copied
 from mars2d.window.widgets.notes import Notes
 from mars2d.world.past import Progress
 from mars2d.world.timeline import Timeline
@@ -116,21 +115,6 @@ class Director:
         again = "goes back" if len(timeline.others) == 1 else "shows the next one"
         self._notes.say(f"{kind}, run until {end:.6g} s; B {again}")
 
-    def others(self) -> list[tuple[str, World]]:
-        """Return the other branches and the earlier runs, each in words."""
-        timeline = self.timeline
-        if timeline is None:
-            return []
-        found = []
-        for world in timeline.others:
-            end = f"{world.iteration * world.sampling_time:.6g} s"
-            if world in timeline.branches:
-                parts = timeline.parted(world) * world.sampling_time
-                found.append((f"Branch at {parts:.6g} s, run until {end}", world))
-            else:
-                found.append((f"Earlier run, until {end}", world))
-        return found
-
     def undo(self) -> None:
         """Undo the last thing done by hand."""
         timeline = self._live()
@@ -148,34 +132,6 @@ class Director:
         self._notes.say(f"undone, at {at:.6g} s; B shows the run with it")
         if timeline.remark:
             self._notes.say(timeline.remark, "warning")
-
-    def copy(self, text: str) -> None:
-        """Copy text to the clipboard, and say so."""
-        there = copied(text)
-        self._notes.say(f"copied: {text}" if there else f"no clipboard can be reached for {text}")
-
-    # -- one body -----------------------------------------------------------------------------
-
-    def put_back(self, body: int) -> None:
-        """Put a body back to where it was at the start."""
-        if self.timeline is not None:
-            pose = self.timeline.experiment.scenario.bodies[body].pose
-            self.change(lambda world: world.operator.place(body, pose))
-
-    def scale_mass(self, body: int, factor: float) -> None:
-        """Go on with a body that is heavier or lighter by a factor, or start again with it."""
-        timeline = self._live()
-        if timeline is None:
-            return
-        setting, *_ = timeline.experiment.parameters(body)
-        mass, name = setting.value * factor, timeline.scenario.bodies[body].name
-        try:
-            reason = self.set(setting.name, mass)
-        except Mars2dError as error:
-            self._notes.say(str(error), "error")
-            return
-        anew = f"started again, as {reason}: " if reason else ""
-        self._notes.say(f"{anew}{name} with a mass of {mass:.4g} kg")
 
     def set(self, name: str, value: float, restart: bool = True) -> str:
         """Set a parameter; return why the run starts again, or "".
@@ -199,23 +155,6 @@ class Director:
             self._player.settle()
         self._begun(branches)
         return reason
-
-    def remove(self, body: int) -> None:
-        """Start again without a body."""
-        name = self._player.source.scenario.bodies[body].name
-        self._begin_anew(lambda drawn: without_body(drawn, body), f"the team without {name}")
-
-    def _begin_anew(self, change: Callable[[Scenario], Scenario], said: str) -> None:
-        """Start again with the scenario of the file changed, or say why it can't be."""
-        timeline = self._live()
-        if timeline is None:
-            return
-        try:
-            experiment = timeline.experiment.redrawn(change(timeline.experiment.scenario))
-        except InputError as error:
-            self._notes.say(str(error), "error")
-            return
-        self._restart(experiment, f"started again: {said}; Space goes on")
 
     # -- robots driven by hand ----------------------------------------------------------------
 

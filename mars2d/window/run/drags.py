@@ -20,8 +20,7 @@ from mars2d.output.raster.theme import LIGHT
 from mars2d.record.frame import Frame
 from mars2d.scenario.changes import obstruction
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.panels.forcemeter import holding_force
-from mars2d.window.panels.readout import in_both_units
+from mars2d.window.panels.readout import holding_force, in_both_units
 from mars2d.world.world import World
 
 Act = Callable[[World], None]

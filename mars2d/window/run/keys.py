@@ -10,10 +10,7 @@ import pygame
 
 from mars2d.output.controls import CONTROLS, PAUSE
 from mars2d.output.layers.table import LAYERS
-from mars2d.window.widgets.actions import CONTROL, MODIFIERS, Action, action_of
-
-MAX_NUMBER = 1_000_000
-"""The largest number that can be typed before a command."""
+from mars2d.window.widgets.actions import Action, action_of
 
 
 def _action(name: str, label: str, does: str, *also: str, repeats: bool = False) -> Action:
@@ -25,9 +22,9 @@ def _action(name: str, label: str, does: str, *also: str, repeats: bool = False)
 
 
 TIME = (
-    _action("pause", "Space", "pause, go on; in manual mode, one step"),
-    _action("step", "→", "one step, then pause; a typed number is the count", repeats=True),
-    _action("back", "←", "one step back; a typed number is the count", repeats=True),
+    _action("pause", "Space", "pause, go on; with --speed 0, one step"),
+    _action("step", "→", "one step, then pause", repeats=True),
+    _action("back", "←", "one step back", repeats=True),
     _action("within", "Shift →", "the next moment within a step, as at a contact", repeats=True),
     _action("within_back", "Shift ←", "the moment before within a step", repeats=True),
     _action("leap", "PgDn", "ten steps, then pause", repeats=True),
@@ -36,8 +33,7 @@ TIME = (
     _action("newest", "End", "go to the newest step"),
     _action("contact", "N", "next contact"),
     _action("contact_back", "Shift N", "previous contact"),
-    _action("contacts", "K", "stop or slow down at contacts"),
-    _action("loop", "J", "loop on and off"),
+    _action("contacts", "K", "stop at contacts, or go on"),
     _action("faster", "+", "faster", "=", repeats=True),
     _action("slower", "\N{MINUS SIGN}", "slower", repeats=True),
     _action("restart", "R", "restart at time 0, with the file as it is now"),
@@ -61,6 +57,8 @@ _SEE = (
     _action("printed", "F6", "what laws print on and off"),
     _action("ruler", "F8", "measure between two clicks, or from the selected body"),
     _action("stopwatch", "F9", "start, stop and put away a stopwatch of the run's time"),
+    _action("less_time", ",", "less time in the plots", repeats=True),
+    _action("more_time", ".", "more time in the plots", repeats=True),
     _action("turn_on", "Shift PgDn", "further rows of panels", repeats=True),
     _action("turn_back", "Shift PgUp", "earlier rows of panels", repeats=True),
     _action("select", "Tab", "select the next robot or prop, and inspect it"),
@@ -94,7 +92,7 @@ DO = (
     _action("undo", "Ctrl Z", "undo the last manual action"),
     _action("picture", "P", "save a picture", "Ctrl S"),
     _action("film", "V", "start and stop a film"),
-    _action("python", "C", "save the scenario as a Python file, and copy it"),
+    _action("scenario", "C", "save the scenario as a file, and copy it"),
     _action("help", "F1", "all keys on and off"),
     _action("escape", "Esc", "close the menu or the help, let go, deselect"),
     LEAVE,
@@ -103,7 +101,7 @@ DO = (
 ACTIONS = (*TIME, *SEE, *DO)
 
 MOUSE = (
-    _action("zoom", "Wheel", "zoom about the pointer; over the time bar, zoom in time"),
+    _action("zoom", "Wheel", "zoom about the pointer; over plots, in time"),
     _action("pick", "Click", "select and inspect a robot or prop; on the floor, deselect"),
     _action("carry", "Drag it", "pull a robot or prop; while paused, move it"),
     _action("aim", "Shift drag", "push a robot or prop with the newtons at the arrow"),
@@ -126,41 +124,18 @@ def bound(
 
 
 class Keyboard:
-    """Turns pressed keys into actions; digits make a number for the next one."""
+    """Turns pressed keys into actions; a key that is held repeats those that may be repeated."""
 
     def __init__(self) -> None:
-        """Start with no key held and nothing typed."""
-        self.number = 0  # typed so far
+        """Start with no key held."""
         self._held: set[int] = set()
 
-    def press(self, event: pygame.Event, *, manual: bool) -> Action | None:
-        """Press a key; return its action, or None.
-
-        manual: whether the window is in MARS's manual mode, in which each key without another
-        action does one step.
-        """
+    def press(self, event: pygame.Event) -> Action | None:
+        """Press a key; return its action, or None."""
         held = event.key in self._held
         self._held.add(event.key)
-        control = event.mod & CONTROL
-        if _is_digit(event.unicode) and not control:
-            if not held:
-                self.number = min(10 * self.number + int(event.unicode), MAX_NUMBER)
-            return None
         action = action_of(event, ACTIONS)
-        steps = manual and not control and pygame.key.name(event.key) not in MODIFIERS
-        if steps and (action is None or action.name == "pause"):
-            action = _BY_NAME["step"]
         return action if action is not None and (action.repeats or not held) else None
-
-    def forget(self, event: pygame.Event) -> None:
-        """Forget the typed number after a key, unless it is a digit or only modifies others."""
-        if not _is_digit(event.unicode) and pygame.key.name(event.key) not in MODIFIERS:
-            self.number = 0
-
-    def typed(self, otherwise: int) -> int:
-        """Return the typed number, or another one if none was typed; forget it."""
-        number, self.number = self.number, 0
-        return number or otherwise
 
     def release(self, code: int) -> None:
         """Release a key."""
@@ -169,7 +144,3 @@ class Keyboard:
     def clear(self) -> None:
         """Release all keys."""
         self._held.clear()
-
-
-def _is_digit(character: str) -> bool:
-    return character.isdigit() and character.isascii()

@@ -19,7 +19,8 @@ from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.layout import Layout
 from mars2d.window.run import keys
 from mars2d.window.run.controls import Controls
-from mars2d.window.run.toolbar import Toolbar, layer_entries
+from mars2d.window.run.menus import layer_entries
+from mars2d.window.run.toolbar import Toolbar
 from mars2d.window.screen.display import PICTURES_A_SECOND, Preferences, started_display
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.player import Player, time_actions
@@ -72,7 +73,7 @@ class PlayerWindow(ABC):
         self._limit = Deadline(patience(), give_up, self._calls, self._answer)
         self._screen = Lock()  # held by the thread that draws
         self._actions: dict[str, Callable[[], None]] = {
-            **time_actions(self.player, self._keyboard.typed),
+            **time_actions(self.player),
             "contact": lambda: self._to_contact(self.player.next_contact),
             "contact_back": lambda: self._to_contact(self.player.last_contact),
             "restart": self._restart,
@@ -230,16 +231,14 @@ class PlayerWindow(ABC):
         """Handle an event of the mouse on the picture."""
 
     def _press(self, event: pygame.Event) -> None:
-        action = self._keyboard.press(event, manual=self.player.manual)
+        action = self._keyboard.press(event)
         if action is not None and action.name in self._actions:
             self._actions[action.name]()
-        self._keyboard.forget(event)
 
     def _is_on(self, action: str) -> bool:
         """Return whether the setting that a button switches is on."""
         return {
             "pause": self.player.playing,
-            "loop": self.player.loop,
             "layers": self.toolbar.menu.name == "layers",
             "help": self.help.is_open,
         }.get(action, self.looks.is_on(action))
@@ -272,8 +271,6 @@ class PlayerWindow(ABC):
 
     def _escape(self) -> None:
         """Close the help, end an activity, or clear errors; a window is never closed by Esc."""
-        if self._keyboard.number:
-            return  # only the typed number is forgotten
         if self.help.is_open:
             self.help.close()
         elif self._end_activity():

@@ -4,20 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import NamedTuple
 
 import numpy as np
 import pygame
 
 from mars2d.core.plane import grid_step
 from mars2d.core.scene import Scene
-from mars2d.output.controls import CONTROLS
 from mars2d.output.marks import MARKS
 from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.theme import mixed
 from mars2d.record.marks import MarkKind
-from mars2d.window.widgets.buttons import draw_icon
 from mars2d.window.widgets.slider import Slider, draw_tooltip
 
 ENDLESS = 1_000_000
@@ -26,11 +23,6 @@ MIN_ENDLESS = 10.0
 """The shortest time shown of such an experiment, seconds."""
 LINE = 6.0
 """The height of the line, points."""
-NOTCH, FEWEST = 1.25, 20.0
-"""How far a notch of the wheel zooms, and the fewest rows along the line."""
-LEAD = 0.1
-"""Where the handle comes in again that has left the part that is shown, in shares of the line."""
-SHOW_ALL = "Show all: double click"
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,43 +56,13 @@ class TimeState:
         return min(grid_step(time) / self.sampling_time, float(self.last))
 
 
-class Span(NamedTuple):
-    """The rows at the ends of the line."""
-
-    first: float
-    last: float
-
-    @property
-    def rows(self) -> float:
-        """How many rows long it is."""
-        return self.last - self.first
-
-    def share(self, row: float) -> float:
-        """Return where a row lies from the left end to the right, 0 to 1, or at the nearer end."""
-        return min(max((row - self.first) / self.rows, 0.0), 1.0)
-
-    def within(self, extent: float) -> Span:
-        """Return a span of the same length, or less, between row 0 and the row `extent`."""
-        rows = min(self.rows, extent)
-        first = min(max(self.first, 0.0), extent - rows)
-        return Span(first, first + rows)
-
-
 class TimeBar(Slider):
-    """Shows the state of an experiment along a line, and finds the row at a pixel.
-
-    The wheel zooms in time. Then a thin line below shows which part of the whole is seen, and the
-    part moves on with the handle.
-    """
+    """Shows the state of an experiment along a line, and finds the row at a pixel."""
 
     def __init__(self) -> None:
         """Start with nothing drawn."""
         super().__init__()
         self._state: TimeState | None = None
-        self._zoomed: Span | None = None  # None while all is shown
-        self._row = -1  # that was drawn last
-        self._bar = pygame.Rect(0, 0, 0, 0)
-        self._all = pygame.Rect(0, 0, 0, 0)  # the button that shows all
         self._ticks: dict[MarkKind, tuple[object, list[tuple[int, int]]]] = {}
 
     def row_at(self, x: float) -> int | None:
@@ -111,67 +73,13 @@ class TimeBar(Slider):
         if self._state is None or self._line.width <= 0:
             return None
         share = (x - self._line.left) / self._line.width
-        row = self.span.first + min(max(share, 0.0), 1.0) * self.span.rows
+        row = min(max(share, 0.0), 1.0) * self._state.extent
         return min(max(round(row), 0), self._state.rows)
 
     def x_of(self, row: float) -> float:
         """Return where a row lies, pixels from the left; at the nearer end if it is not shown."""
-        return self._line.left + self._line.width * self.span.share(row)
-
-    # -- the part that is shown -----------------------------------------------------------------
-
-    @property
-    def span(self) -> Span:
-        """The rows at the ends of the line."""
         extent = 1.0 if self._state is None else self._state.extent
-        return Span(0.0, extent) if self._zoomed is None else self._zoomed
-
-    @property
-    def zoomed(self) -> bool:
-        """Whether a part of the whole is shown."""
-        return self._zoomed is not None
-
-    def zoom(self, notches: float, x: float) -> None:
-        """Zoom in time by notches of the wheel about a pixel from the left; out, up to all."""
-        if self._state is None or self._line.width <= 0:
-            return
-        extent, span = self._state.extent, self.span
-        rows = max(span.rows / NOTCH**notches, min(FEWEST, extent))
-        share = min(max((x - self._line.left) / self._line.width, 0.0), 1.0)
-        first = span.first + share * (span.rows - rows)
-        wanted = Span(first, first + rows).within(extent)
-        self._zoomed = None if wanted.rows >= extent * (1 - 1e-9) else wanted
-
-    def move(self, notches: float) -> None:
-        """Show a later or, for notches below 0, an earlier part of the same length."""
-        if self._state is not None and self._zoomed is not None:
-            aside = LEAD * notches * self._zoomed.rows
-            first, last = self._zoomed
-            self._zoomed = Span(first + aside, last + aside).within(self._state.extent)
-
-    def show_all(self) -> None:
-        """Show the whole experiment."""
-        self._zoomed = None
-
-    def covers(self, pixel: tuple[int, int]) -> bool:
-        """Return whether a pixel is on the bar, on the line or beside it."""
-        return bool(self._bar.collidepoint(pixel))
-
-    def shows_all_at(self, pixel: tuple[int, int]) -> bool:
-        """Return whether a pixel is on the button that shows all."""
-        return bool(self._all.collidepoint(pixel))
-
-    def _keep_up(self, state: TimeState) -> None:
-        """Move on with the handle where it has left the part that is shown."""
-        moved, self._row = state.row != self._row, state.row
-        if self._zoomed is None:
-            return
-        first, last = self._zoomed
-        if moved and not first <= state.row <= last:
-            lead = LEAD if state.row > last else 1 - LEAD
-            first = state.row - lead * self._zoomed.rows
-        shown = Span(first, first + self._zoomed.rows).within(state.extent)
-        self._zoomed = None if shown.rows >= state.extent else shown
+        return self._line.left + self._line.width * min(max(row / extent, 0.0), 1.0)
 
     # -- drawing --------------------------------------------------------------------------------
 
@@ -193,7 +101,6 @@ class TimeBar(Slider):
         surface.fill(theme.bar, rect)
         surface.fill(theme.edge, (rect.left, rect.top, rect.width, 1))
         self._state = state
-        self._keep_up(state)
         self._arrange(rect, painter, state)
         if self._line.width <= 0:
             return
@@ -201,36 +108,27 @@ class TimeBar(Slider):
         self._ends(surface, painter, state)
         self._band(surface, painter, state)
         self._marks(surface, painter, state)
-        self._overview(surface, painter, state)
         self._handle(surface, painter, state, lifted=hovered)
         self._label(surface, painter, state)
         if hovered and pointer is not None:
             row = self.row_at(pointer[0])
             place = round(self.x_of(row or 0)), rect.top - round(4 * ui)
             draw_tooltip(surface, painter, _time(row or 0, state), midbottom=place)
-        if pointer is not None and self.shows_all_at(pointer):
-            draw_tooltip(surface, painter, SHOW_ALL, midbottom=self._all.midtop)
 
     def _arrange(self, rect: pygame.Rect, painter: Painter, state: TimeState) -> None:
         """Place the line between the labels of its ends; leave them out if it would be short."""
         ui, fonts = painter.ui, painter.fonts
         pad, gap, size = 20 * ui, 12 * ui, 13 * ui
-        button = round(28 * ui) if self.zoomed else 0
         first, last = "0 s", _time(state.extent, state, digits=0)
-        if self.zoomed:  # the line stays where it is while the wheel turns
-            first = last = max(last, _time(round(state.extent), state), key=len)
         left = rect.left + pad + fonts.width(first, size) + gap
-        right = rect.right - pad - fonts.width(last, size) - gap - button
+        right = rect.right - pad - fonts.width(last, size) - gap
         self._labelled = right - left >= 120 * ui
         if not self._labelled:
-            left, right = rect.left + pad, rect.right - pad - button
+            left, right = rect.left + pad, rect.right - pad
         height = round(LINE * ui)
         line = pygame.Rect(round(left), 0, max(0, round(right - left)), height)
         line.centery = rect.top + round(0.58 * rect.height)
         self._place(rect, line, round(8 * ui))
-        self._bar = rect
-        self._all = pygame.Rect(0, 0, button, button)
-        self._all.midright = (rect.right - round(6 * ui), line.centery)
 
     def _ends(self, surface: pygame.Surface, painter: Painter, state: TimeState) -> None:
         """Write the times at both ends."""
@@ -238,11 +136,9 @@ class TimeBar(Slider):
             return
         ui, line = painter.ui, self._line
         gap = round(12 * ui)
-        for end, place in zip(self.span, ("midright", "midleft"), strict=True):
+        texts = "0 s", _time(state.extent, state, digits=0)
+        for text, place in zip(texts, ("midright", "midleft"), strict=True):
             x = line.left - gap if place == "midright" else line.right + gap
-            # In whole seconds, if these are the ends of the run.
-            row, digits = (round(end), None) if self.zoomed else (end, 0)
-            text = _time(row, state, digits)
             image = painter.fonts.render(text, 13 * ui, painter.theme.muted)
             surface.blit(image, image.get_rect(**{place: (x, line.centery)}))
 
@@ -251,7 +147,7 @@ class TimeBar(Slider):
         theme = painter.theme
         ahead = mixed(theme.selected, theme.bar, 0.42)
         for row, color in (
-            (self.span.last, theme.track),
+            (state.extent, theme.track),
             (state.rows, ahead),
             (state.row, theme.selected),
         ):
@@ -270,30 +166,16 @@ class TimeBar(Slider):
             for x, width in self._stretches(kind, state.marks.get(kind, ()), wide):
                 surface.fill(color, (x, top, width, height))
 
-    def _overview(self, surface: pygame.Surface, painter: Painter, state: TimeState) -> None:
-        """Draw which part of the whole is shown, and the button that shows all."""
-        if not self.zoomed:
-            return
-        ui, line, theme = painter.ui, self._line, painter.theme
-        high = max(2, round(2 * ui))
-        top = self._area.bottom - high - round(3 * ui)
-        surface.fill(theme.track, (line.left, top, line.width, high))
-        first, last = (line.left + line.width * end / state.extent for end in self.span)
-        part = pygame.Rect(round(first), top - 1, max(round(last - first), round(6 * ui)), high + 2)
-        part.right = min(part.right, line.right)
-        surface.fill(theme.selected, part)
-        draw_icon(surface, CONTROLS["fit"].icon, theme.text, self._all)
-
     def _stretches(self, kind: MarkKind, rows: Sequence[int], thick: int) -> list[tuple[int, int]]:
         """Return runs of columns of pixels with events, each as its first pixel and its width.
 
         thick: the width of a tick, pixels. They are found again where there is something new.
         """
-        of = len(rows), rows[-1:], self._line.left, self._line.width, self.span, thick
+        extent = 1.0 if self._state is None else self._state.extent
+        of = len(rows), rows[-1:], self._line.left, self._line.width, extent, thick
         known, found = self._ticks.get(kind, (None, []))
         if known != of:
-            seen = np.array([row for row in rows if self.span.first <= row <= self.span.last])
-            share = (seen - self.span.first) / self.span.rows
+            share = np.array(rows) / extent
             columns = np.unique(np.rint(self._line.left + self._line.width * share).astype(int))
             parts = np.split(columns, np.flatnonzero(np.diff(columns) > thick) + 1)
             found = [
@@ -307,10 +189,7 @@ class TimeBar(Slider):
     def _handle(
         self, surface: pygame.Surface, painter: Painter, state: TimeState, *, lifted: bool
     ) -> None:
-        """Draw the handle, larger while the mouse is over the bar, unless it is not shown."""
-        first, last = self.span
-        if not first <= state.row <= last:
-            return
+        """Draw the handle, larger while the mouse is over the bar."""
         theme = painter.theme
         color = theme.past.ink if state.past else theme.selected
         scene = Scene()

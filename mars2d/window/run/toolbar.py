@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from functools import partial
 
 import pygame
 
-from mars2d.output.layers.table import LAYERS, Layers
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
 from mars2d.window.run.keys import bound
@@ -17,10 +15,10 @@ from mars2d.window.widgets.menu import Entry, Menu
 Actions = Mapping[str, Callable[[], None]]
 Pixel = tuple[int, int]
 
-TRANSPORT = (("start", "back", "pause", "step", "newest", "loop"),)
+TRANSPORT = (("start", "back", "pause", "step", "newest"),)
 SEE = ("layers", "scopes", "fit", "follow", "contacts", "predictions", "lesson")
 CHANGE = ("parameters", "drive", "edit", "restart", "branch")
-SAVE = ("picture", "film", "python")
+SAVE = ("picture", "film", "scenario")
 LOOK = ("screen", "dark", "text", "help", "leave")
 
 
@@ -82,15 +80,3 @@ class Toolbar:
         self.menu.draw(surface, layout.plot, painter)
         for bar in () if self.menu.is_open else self.bars:
             bar.draw_tip(surface, painter, pointer)
-
-
-def layer_entries(layers: Layers, switch: Callable[..., None]) -> list[Entry]:
-    """Return an entry for each layer that people may switch; switch: toggles one of them alone."""
-    return [
-        Entry(
-            each.title, partial(switch, each.name, alone=True), each.key.upper(),
-            getattr(layers, each.name),
-        )
-        for each in LAYERS
-        if each.switch
-    ]  # fmt: skip

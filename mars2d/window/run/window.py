@@ -32,13 +32,6 @@ from mars2d.window.panels.printed import Printed
 from mars2d.window.panels.rows import RowsPanel
 from mars2d.window.panels.scopes import Scopes
 from mars2d.window.run import keys
-from mars2d.window.run.context import (
-    entries_of_body,
-    entries_of_contacts,
-    entries_of_leaving,
-    entries_of_place,
-    entries_of_runs,
-)
 from mars2d.window.run.countdown import Countdown
 from mars2d.window.run.director import RECORDING, Director
 from mars2d.window.run.ending import Ending
@@ -46,12 +39,17 @@ from mars2d.window.run.ghosts import ghosts
 from mars2d.window.run.grab import CLICK, Grab
 from mars2d.window.run.heat import AGAIN, MOST, heat, squeezes
 from mars2d.window.run.hints import hints_of
+from mars2d.window.run.menus import (
+    entries_of_body,
+    entries_of_leaving,
+    entries_of_place,
+    entries_of_scopes,
+)
 from mars2d.window.run.mouse import Mouse
 from mars2d.window.run.play import Play
 from mars2d.window.run.player_window import PlayerWindow
 from mars2d.window.run.push import draw_pushes
 from mars2d.window.run.reload import Reload
-from mars2d.window.run.scope_menu import ScopeMenu
 from mars2d.window.run.score_panel import ScorePanel
 from mars2d.window.run.toolbar import Toolbar
 from mars2d.window.run.tools import Tools
@@ -64,9 +62,9 @@ from mars2d.window.screen.selection import Selection
 from mars2d.window.screen.source import Playback, Source
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.dock import Dock
+from mars2d.window.widgets.menu import Entry
 from mars2d.window.widgets.notes import Progress, draw_progress
 from mars2d.world.timeline import Timeline
-from mars2d.world.world import World
 
 if TYPE_CHECKING:
     from mars2d.window.editor import Editor
@@ -130,7 +128,7 @@ class Window(PlayerWindow):
             self._is_picture, self._select_at, self._offer,
         )  # fmt: skip
         self._actions |= {
-            "contacts": self._offer_contacts,
+            "contacts": self._stop_or_go_on,
             "source": lambda: self._ending.open_source(self.notes),
             **{name: partial(self._switch_panel, name) for name in (*LACKS, "printed")},
             "within": partial(self._step_within, 1),
@@ -139,7 +137,8 @@ class Window(PlayerWindow):
             "undo": self._undo,
             "scopes": self._open_scopes,
             "figure": lambda: self.scopes.save_figure(self.player.frame, self.saver),
-            "table": lambda: self.scopes.save_table(self.player.frame, self.saver),
+            "less_time": lambda: self.scopes.zoom(1),
+            "more_time": lambda: self.scopes.zoom(-1),
             "select": lambda: self.select(next_body(self.player.frame, self.selected)),
             "follow": self._follow_or_not,
             "slider": self._to_sliders,
@@ -150,24 +149,21 @@ class Window(PlayerWindow):
             **self._tools.actions,
             "edit": self._open_editor,
             "film": self.saver.film_or_not,
-            "python": self._save_python,
+            "scenario": self._save_scenario,
         }
-        self.scopes: Scopes = Scopes(painter, self.player, self._actions)
-        self.dock: Dock = Dock(
+        self.scopes: Scopes = Scopes(painter, self.player)
+        self.dock = Dock(
             painter,
             [
                 self._inspector, self.scopes, self.parameters, self._predictions, self._lesson,
                 self._printed, self._impact,
             ],
         )  # fmt: skip
-        buttons = self._actions | {"branch": self._choose_branch}
+        buttons = dict(self._actions)
         for name, panel in (("predictions", self._predictions), ("lesson", self._lesson)):
             if not panel.offered:
                 del buttons[name]
         self.toolbar = Toolbar(buttons, self._is_on, live=timeline is not None)
-        self._scope_menu = ScopeMenu(
-            self.scopes, self.toolbar, self.player, self._selection, self._actions
-        )
 
     @property
     def selected(self) -> int | None:
@@ -265,14 +261,13 @@ class Window(PlayerWindow):
 
     def _meet(self) -> None:
         """Release and deselect all bodies if the experiment has others than before."""
-        self.scopes.renew(self._scope_menu.functions)
+        self.scopes.meet(self.player.source.scenario)
         cast = _cast(self.player.source)
         if cast == self._cast:
             return
         self._cast, self.viewpoint.following = cast, None
         self.select(None)
         self.director.release()
-        self.scopes.meet(self.player.source.scenario)
         self.grab.cancel()
         self.grab.leave()
 
@@ -294,7 +289,7 @@ class Window(PlayerWindow):
         frame = self.grab.shown(self.player.frame)
         layout = self._layout(surface.get_size(), banner)
         self._painter.ui, self.grab.click = layout.ui, CLICK * layout.ui
-        self._inspector.plays = self._inspector.frames = self._drives
+        self._inspector.frames = self._drives
         self.scopes.chosen = self.selected
         bounds = self.viewpoint.bounds or frame.scenario.bounds
         fit = partial(fitted, bounds, layout.size)
@@ -365,8 +360,6 @@ class Window(PlayerWindow):
         draw_footer(surface, layout, painter, banner, summary(frame), hints)
 
     def _status(self) -> Status:
-        if self._keyboard.number:
-            return Status(f"{self._keyboard.number} ...", "waiting")
         text, kind = self.player.status()
         if self.game is not None and self.game.counting:
             return Status("get ready", "waiting")
@@ -419,7 +412,7 @@ class Window(PlayerWindow):
         if over or self.toolbar.handle(event):
             self._meet()
             return True
-        if self._controls.handle(event) or (not self.help.is_open and self.dock.handle(event)):
+        if not self.help.is_open and self.dock.handle(event):
             return True
         return event.type in TYPING and not self._drives and self.parameters.press(event)
 
@@ -463,18 +456,18 @@ class Window(PlayerWindow):
     def _offer_at(self, point: Point) -> None:
         """Open the menu of what can be done with what is selected, or at a point [m]."""
         ((x, y),) = self.camera.to_pixels([point]).astype(int).tolist()
-        frame, body = self.player.frame, self.selected
+        frame, body, live = self.player.frame, self.selected, self.director.timeline is not None
         if body is None:
             entries = entries_of_place(
-                point, self.grab.name, self.director, self._actions, self._tools.measure_from
+                point, self.grab.name, self._actions, self._tools.measure_from, live=live
             )
         else:
-            entries = entries_of_body(frame, body, self.director, self._actions)
+            entries = entries_of_body(frame, body, self._actions, live=live)
         self.toolbar.menu.open("offer", lambda: entries, (x, y))
 
     def _is_on(self, action: str) -> bool:
         return {
-            "contacts": self.player.at_contact != "go on" or self.toolbar.menu.name == "contacts",
+            "contacts": self.player.stops,
             "parameters": self.parameters.is_open,
             "scopes": self.scopes.is_open,
             "predictions": self._predictions.is_open,
@@ -504,10 +497,10 @@ class Window(PlayerWindow):
         else:
             self.notes.say(LACKS[name], "warning")
 
-    def _offer_contacts(self) -> None:
-        """Open the menu of contacts, beside the card of the last impact."""
-        self._impact.open()
-        self.toolbar.open("contacts", partial(entries_of_contacts, self.player, self._actions))
+    def _stop_or_go_on(self) -> None:
+        """Let time stop where contacts begin, or go on."""
+        self.player.stops = not self.player.stops
+        self.notes.say(f"time {'stops' if self.player.stops else 'goes on'} at contacts")
 
     def _to_contact(self, go: Callable[[], None]) -> None:
         """Go to a contact of the selected body, or of any; forces and its card are shown there."""
@@ -522,7 +515,13 @@ class Window(PlayerWindow):
 
     def _open_scopes(self) -> None:
         """Open the menu of plots."""
-        self._scope_menu.open()
+
+        def entries() -> list[Entry]:
+            plots = entries_of_scopes(self.player.frame, self.selected, self.scopes)
+            figure = Entry("Save the plots as a figure", self._actions["figure"])
+            return [*plots, figure] if self.scopes.is_open else plots
+
+        self.toolbar.open("scopes", entries)
 
     def _undo(self) -> None:
         """Undo the last thing done by hand; a drag ends."""
@@ -544,19 +543,6 @@ class Window(PlayerWindow):
         entries, plot = entries_of_leaving(save, super()._close), self.layout.plot
         corner = plot.left + plot.width // 4, plot.top + plot.height // 4
         menu.open("leave", lambda: entries, corner)
-
-    def _choose_branch(self) -> None:
-        """Open the list of branches and earlier runs."""
-        if self.director.others():
-            self.toolbar.open("branch", lambda: entries_of_runs(self.director, self._show_run))
-        else:
-            self._other_branch()
-
-    def _show_run(self, world: World) -> None:
-        """Show another branch or an earlier run; a drag in the present one ends."""
-        self.grab.cancel()
-        self.director.show(world)
-        self._meet()
 
     def _other_branch(self) -> None:
         """Show the branch that was left longest ago, or an earlier run."""
@@ -609,19 +595,17 @@ class Window(PlayerWindow):
         banner, frame = self._ending.banner(), self.player.frame
         return arena_of(window, self.layout, self._painter, frame, banner)
 
-    def _save_python(self) -> None:
-        """Save the scenario as it is now as a Python file."""
-        timeline, scenario = self.director.timeline, self.director.scenario_to_save()
-        if timeline is None:
-            self.saver.python(scenario, None)
-        else:
-            self.saver.python(scenario, timeline.world.control, timeline.options)
+    def _save_scenario(self) -> None:
+        """Save the scenario as it is now."""
+        timeline = self.director.timeline
+        control = None if timeline is None else timeline.world.control
+        self.saver.scenario(self.director.scenario_to_save(), control)
 
     def _to_sliders(self) -> None:
         """Let keys go to the sliders of parameters, which are shown."""
         if not self.parameters.is_open:
             self._switch_panel("parameters")
-        self.parameters.focus = next(iter(self.parameters.parameters()), None)
+        self.parameters.focus_on(None)
 
     def _turn_panels(self, notches: int) -> None:
         """Scroll the panels that have more rows, as the wheel over them does."""

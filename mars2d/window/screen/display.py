@@ -91,6 +91,7 @@ def open_display() -> None:
 def started_display() -> Iterator[None]:
     """Start pygame's display, and end it afterwards unless it was started before.
 
+    Keys pressed while one window made way for the next one are forgotten.
     Raises InputError without a real screen.
     """
     import pygame
@@ -98,6 +99,7 @@ def started_display() -> Iterator[None]:
     ours = not pygame.display.get_init() or bool(_tried)
     _tried.clear()
     open_display()
+    pygame.event.clear((pygame.KEYDOWN, pygame.TEXTINPUT))
     try:
         yield
     finally:

@@ -6,6 +6,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Literal
 
 from mars2d.core.errors import Mars2dError
@@ -16,12 +17,11 @@ from mars2d.window.screen.source import Playback, Source
 from mars2d.window.widgets.slider import BEHIND, times
 
 Kind = Literal["running", "waiting", "past", "error"]
-AtContact = Literal["go on", "stop", "slow"]
 Status = tuple[str, Kind]
 """The state of the clock in words, and its kind."""
 
 LEAP = 10
-"""How many steps PgDn and PgUp do, unless a number was typed."""
+"""How many steps PgDn and PgUp do."""
 
 SPEEDS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)
 """The rungs of + and -; above them is "max"."""
@@ -29,9 +29,6 @@ SPEEDS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)
 MAX_GAP = 0.1
 """The longest wall time between two pictures that is caught up with, seconds."""
 
-SLOW, SLOW_FOR = 0.1, 1.0
-"""The factor of the speed after a contact has begun, at most of real time, and for how many seconds
-of wall time."""
 SHARE_AT_MAX = 9.0
 """At speed max, the time of the simulation as a multiple of the last picture's drawing time..."""
 MAX_TIME_AT_MAX = 0.1
@@ -57,15 +54,13 @@ class Player:
         self.source = source
         self.speed = float("inf") if checked == "max" else float(checked)
         self.paused = False
-        self.loop = False  # whether to begin again at the end
-        self.at_contact: AtContact = "go on"
+        self.stops = False  # where a contact begins
         self.body: int | None = None  # whose contacts count; None for all
         self.error: Mars2dError | None = None
         self.drawing = 0.0  # the time of the last picture, seconds
         self._todo = 0  # steps to do
         self._seeks = False  # whether to go on to the next contact
-        self._met = False  # whether a contact has just begun, and is to be heeded
-        self._slow = 0.0  # wall time for which it still goes slowly, seconds
+        self._met = False  # whether a contact has just begun at which it stops
         self._budget, self._clock = budget, clock
         self._present = source.frame
         self._previous: Frame | None = None
@@ -138,8 +133,6 @@ class Player:
             self.settle()
         if self._todo:
             self._do_steps()
-        if self.loop and self.over and not (self.failed or self.paused or self.manual):
-            self._rewind()
         if not self.playing:
             self._pace.clear()
             return
@@ -152,17 +145,13 @@ class Player:
                     break
             self.settle()
         else:
-            pace = SLOW * min(self.speed, 1.0) if self._slow else self.speed
-            wanted = self._time + pace * min(wall, MAX_GAP)
+            wanted = self._time + self.speed * min(wall, MAX_GAP)
             self._advance_until(wanted)
             # If the simulation is too slow, time waits for it and does not catch up later.
             self._time = min(wanted, self._present.time)
-        self._slow = max(0.0, self._slow - wall)
-        if self._met and self.at_contact == "stop":
+        if self._met:
             self.pause()
-        elif self._met:
-            self._slow = SLOW_FOR
-        self._met = False
+            self._met = False
         now = self._clock()
         if self._pace and self._time < self._pace[-1][1]:  # it was started again
             self._pace.clear()
@@ -236,7 +225,7 @@ class Player:
 
     def pause(self) -> None:
         """Stop time, and show the present frame."""
-        self._todo, self._seeks, self._slow = 0, False, 0.0
+        self._todo, self._seeks = 0, False
         if not self.manual:
             self.paused = True
         self.settle()
@@ -248,17 +237,13 @@ class Player:
             return
         self._todo, self._seeks, self._moments = 0, False, ()
         if self.over and not self.failed:
-            self._rewind()
+            self.source.go(0)
+            self.settle()
             self.paused = False
             return
         self.paused = not self.paused
         if self.paused:
             self.settle()
-
-    def _rewind(self) -> None:
-        """Show the start, whether time passes or not."""
-        self.source.go(0)
-        self.settle()
 
     def set_speed(self, speed: float) -> None:
         """Play at a factor of real time; inf: as fast as possible."""
@@ -308,8 +293,6 @@ class Player:
 
     def _pace_in_words(self) -> str:
         factor = self.factor
-        if self._slow:
-            return f"slow  {times(SLOW * min(self.speed, 1.0))}"
         if self.speed == float("inf"):
             return "max" if factor is None else f"max  {times(factor)}"
         text = times(self.speed)
@@ -347,28 +330,20 @@ class Player:
             self.source.advance()
         except Mars2dError as error:
             self.error = error
-        self._met = self.at_contact != "go on" and self._meets()
+        self._met = self.stops and self._meets()
         return not self.failed
 
 
-def time_actions(player: Player, typed: Callable[[int], int]) -> dict[str, Callable[[], None]]:
-    """Return the actions of the keys and buttons of time, by name.
-
-    typed: returns the number that was typed before a key, or else the one given.
-    """
-
-    def loop_or_not() -> None:
-        player.loop = not player.loop
-
+def time_actions(player: Player) -> dict[str, Callable[[], None]]:
+    """Return the actions of the keys and buttons of time, by name."""
     return {
         "pause": player.pause_or_resume,
-        "step": lambda: player.step(typed(1)),
-        "back": lambda: player.back(typed(1)),
-        "leap": lambda: player.step(typed(LEAP)),
-        "leap_back": lambda: player.back(typed(LEAP)),
-        "start": lambda: player.go(0),
+        "step": player.step,
+        "back": player.back,
+        "leap": partial(player.step, LEAP),
+        "leap_back": partial(player.back, LEAP),
+        "start": partial(player.go, 0),
         "newest": lambda: player.go(player.source.newest),
-        "loop": loop_or_not,
         "faster": player.faster,
         "slower": player.slower,
     }

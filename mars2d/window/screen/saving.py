@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
@@ -18,8 +18,8 @@ from mars2d.output.formats import save_branches
 from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.picture import save_png
-from mars2d.scenario.python_file import as_python
 from mars2d.scenario.scenario import Scenario
+from mars2d.scenario.toml_file import save_scenario
 from mars2d.window.widgets.clipboard import copied
 from mars2d.window.widgets.notes import Notes
 from mars2d.world.record import Record
@@ -54,24 +54,19 @@ class Saver:
         """Save a picture."""
         self.save("picture", ".png", partial(save_png, surface))
 
-    def python(
-        self,
-        scenario: Scenario,
-        control: Callable[[Any], Any] | None,
-        options: Mapping[str, Any] | None = None,
-    ) -> None:
-        """Save a scenario as Python, and copy it to the clipboard if there is one.
+    def scenario(self, scenario: Scenario, control: Callable[[Any], Any] | None) -> None:
+        """Save a scenario, and copy its file to the clipboard if there is one.
 
-        control: the law of the team. options: the parameters that were set, for a comment.
+        control: the law of the team.
         """
 
         def write(path: Path) -> str:
-            text = as_python(scenario, control, path.parent, options)
-            with atomic_write(path) as file:
-                file.write(text.encode(errors="replace"))
-            return ", and on the clipboard" if copied(text) else ""
+            missing = save_scenario(scenario, path, control)
+            without = f", without {', '.join(missing)}" if missing else ""
+            text = path.read_text(encoding="utf-8")
+            return without + (", and on the clipboard" if copied(text) else "")
 
-        self.save("scenario", ".py", write)
+        self.save("scenario", ".toml", write)
 
     def record(self, record: Record) -> bool:
         """Save a run with its branches; return whether it could be."""

@@ -13,6 +13,8 @@ from mars2d.output.raster.painter import Painter
 
 WIDTH, GAP, MARGIN = 212.0, 18.0, 30.0
 """The least width of a card, the gap between two, and the margin of the page, points."""
+LEAST = 100.0
+"""The width of cards that are not made any narrower to be seen as a whole, points."""
 SHAPE = 0.625
 """The height of a picture, in widths."""
 CAPTION, HEADING = 32.0, 46.0
@@ -42,9 +44,16 @@ class Card:
 
     def has(self, words: str) -> bool:
         """Return whether all words occur in it."""
-        text = f"{self.title} {self.line} {' '.join(self.command)} {self.words}"
-        text = text.lower().replace("_", "")
-        return all(word in text for word in words.lower().replace("_", "").split())
+        return _occur(words, f"{self.title} {self.line} {' '.join(self.command)} {self.words}")
+
+    def is_called(self, words: str) -> bool:
+        """Return whether all words occur in its title."""
+        return _occur(words, self.title)
+
+
+def _occur(words: str, text: str) -> bool:
+    text = text.lower().replace("_", "")
+    return all(word in text for word in words.lower().replace("_", "").split())
 
 
 @dataclass(frozen=True)
@@ -77,8 +86,10 @@ class Page:
         self._area = area
         margin, gap = round(MARGIN * ui), round(GAP * ui)
         room = area.width - 2 * margin
-        columns = max(1, (room + gap) // (round(WIDTH * ui) + gap))
-        width = (room + gap) // columns - gap
+        high = max(area.height - (HEADING + CAPTION + GAP) * ui, SHAPE * LEAST * ui)
+        widest = min(WIDTH * ui, high / SHAPE)  # so that a whole card is seen
+        columns = max(1, int((room + gap) / (widest + gap)))
+        width = min((room + gap) // columns - gap, round(high / SHAPE))
         height = round(SHAPE * width + CAPTION * ui)
         self.places, self._headings = [], []
         y = round(0.4 * margin)
@@ -121,7 +132,7 @@ class Page:
             self.chosen = min(beyond)[2] if beyond else self.chosen
         place = self.places[self.chosen][1]
         above = 0 if place.top < 2 * place.height else place.top - place.height // 2
-        self._scroll = min(max(self._scroll, place.bottom + 20 - self._area.height), above)
+        self._scroll = max(min(self._scroll, above), place.bottom + 20 - self._area.height)
         self.scroll(0)
 
     def at(self, pixel: tuple[int, int]) -> int | None:
@@ -144,28 +155,14 @@ class Page:
         for k, (card, place) in enumerate(self.places):
             if self._seen(place).colliderect(self._area):
                 self._draw_card(surface, painter, card, self._seen(place), chosen=k == self.chosen)
-        bar = self.bar(painter.ui)
-        if bar is not None:
+        area, ui = self._area, painter.ui
+        if self._length > area.height:
+            long = max(round(30 * ui), area.height * area.height // self._length)
+            way = self._scroll / (self._length - area.height)
+            top = area.top + round(way * (area.height - long))
+            bar = pygame.Rect(area.right - round(11 * ui), top, round(7 * ui), long)
             painter.panel(surface, bar, painter.theme.track, bar.width / 2)
         surface.set_clip(None)
-
-    def bar(self, ui: float) -> pygame.Rect | None:
-        """Return the place of the scroll bar, if there is more than fits."""
-        area = self._area
-        if self._length <= area.height:
-            return None
-        long = max(round(30 * ui), area.height * area.height // self._length)
-        way = self._scroll / (self._length - area.height)
-        top = area.top + round(way * (area.height - long))
-        return pygame.Rect(area.right - round(11 * ui), top, round(7 * ui), long)
-
-    def drag_bar(self, y: float, ui: float) -> None:
-        """Put the middle of the scroll bar at a height, pixels."""
-        bar = self.bar(ui)
-        if bar is not None:
-            way = (y - self._area.top - bar.height / 2) / max(1, self._area.height - bar.height)
-            self._scroll = way * (self._length - self._area.height)
-            self.scroll(0)
 
     def _seen(self, place: pygame.Rect) -> pygame.Rect:
         return place.move(self._area.left, self._area.top - round(self._scroll))

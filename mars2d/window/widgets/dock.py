@@ -271,17 +271,20 @@ class Dock:
         ui = self.painter.ui
         least, wanted = panel.heights(frame, lane.width / ui - 2 * PAD)
         more = PAD + (HEAD if panel.headed else 0)
-        return (least + more) * ui, (wanted + more) * ui
+        return min((least + more) * ui, lane.height), (wanted + more) * ui
 
     def _unfolded(
         self, shown: Sequence[Panel], lanes: Sequence[pygame.Rect], frame: Frame
     ) -> set[str]:
-        """Return the names of the panels that are seen whole: as many as there is room for."""
+        """Return the names of the panels that are seen whole, as many as there is room for, or one.
+
+        For that one, titles of others may have to go.
+        """
         found: set[str] = set()
         for name in self._recent:
             if self._shared(shown, lanes, frame, {*found, name}) is not None:
                 found.add(name)
-        return found
+        return found or set(self._recent[:1])
 
     def _shared(
         self,
@@ -310,9 +313,10 @@ class Dock:
         unfolded = self._unfolded(shown, self._place.lanes, frame)
         self._folded = {panel.name for panel in shown} - unfolded
         shared = self._shared(shown, self._place.lanes, frame, unfolded)
-        while shown and shared is None:  # not even room for all titles
-            shown.pop()
-            shared = self._shared(shown, self._place.lanes, frame, unfolded)
+        for name in reversed(self._recent):
+            if shared is None:  # there is no room for all titles
+                shown = [panel for panel in shown if panel.name != name]
+                shared = self._shared(shown, self._place.lanes, frame, unfolded)
         ui, gap = self.painter.ui, round(MARGIN * self.painter.ui)
         for lane, panels in zip(self._place.lanes, shared or (), strict=False):
             heights = [

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
-from itertools import takewhile
 from typing import NamedTuple
 
 import pygame
@@ -17,47 +16,28 @@ from mars2d.window.widgets.actions import Action
 Groups = Iterable[tuple[str, Sequence[Action]]]
 Named = tuple[tuple[str, tuple[Action, ...]], ...]
 
-UNREADABLE = 0.2
-"""The scale below which text is not drawn, pixels a point."""
-LEGIBLE = 0.8
-"""The scale below which the help is split into pages, pixels a point."""
-LEGIBLE_SHARE = 0.62
-"""The same as a share of the window's scale, so that large text stays rather large."""
-SHARES = (0.9, 0.8, 0.7)
-"""The scales that are tried, as shares of the window's."""
-MAX_COLUMNS, MAX_PAGES = 3, 12
+SHARES = (1.0, 0.9, 0.8, 0.7)
+"""The scales that are tried until all is on one page, as shares of the window's."""
 SIZE, ROW, LINE = 15.0, 33.0, 19.0
 """The heights of letters, of a row, and of each further line of a row, points."""
-HEADING, GAP = 34.0, 12.0
-"""The heights of a group's heading and of the gap above it, points."""
+HEADING = 42.0
+"""The height of a group's heading, points."""
 TOP, PAD, BETWEEN = 62.0, 28.0, 34.0
 """The height of the title, the margin, and the gap between two columns, points."""
-MIN_WORDS, MAX_WORDS = 150.0, 380.0
-"""The narrowest and the widest line of words, points."""
+CAPS, WORDS = 114.0, (150.0, 390.0)
+"""The room for keys, and the narrowest and widest line of words, points."""
 
 
 class _Row(NamedTuple):
-    """The labels of a key and the lines of its help; without labels, a group's heading.
-
-    caps: the room for the labels, pixels.
-    """
+    """The labels of a key and the lines of its help; without labels, a group's heading."""
 
     labels: tuple[str, ...]
     lines: Sequence[str]
-    caps: int = 0
 
     @property
     def height(self) -> float:
         """Points."""
-        return ROW + LINE * (len(self.lines) - 1) if self.labels else HEADING + GAP
-
-
-class _Plan(NamedTuple):
-    """Pages of columns of rows; ui: pixels a point; column: the width of all columns, pixels."""
-
-    ui: float
-    column: int
-    pages: Sequence[Sequence[Sequence[_Row]]]
+        return ROW + LINE * (len(self.lines) - 1) if self.labels else HEADING
 
 
 class Help:
@@ -96,132 +76,92 @@ class Help:
             return
         top = layout.header.bottom
         area = pygame.Rect(0, top, surface.get_width(), surface.get_height() - top)
-        named = tuple((heading, tuple(group)) for heading, group in groups)
-        plan = _plan(painter.fonts, named, area.inflate(-16, -16).size, layout.ui)
-        if plan is None:
-            return
-        ui, column, pages = plan
-        self.pages, self.page = len(pages), min(self.page, len(pages) - 1)
         fonts, theme = painter.fonts, painter.theme
+        named = tuple((heading, tuple(group)) for heading, group in groups)
+        high = area.height - round(16 * layout.ui)
+        ui, width, pages = _laid_out(fonts, named, (area.width, high), layout.ui)
+        self.pages, self.page = len(pages), min(self.page, len(pages) - 1)
         draw_veil(surface, painter, area)
-        pad, between = round(PAD * ui), round(BETWEEN * ui)
-        title = f"Keys, page {self.page + 1} of {self.pages}" if self.pages > 1 else "Keys"
-        word = "F1 goes on" if self.page + 1 < self.pages else "F1 closes this"
-        head = fonts.width(title, 21 * ui, bold=True) + fonts.width(word, 14 * ui)
-        width = max(len(columns) for columns in pages) * (column + between) - between + 2 * pad
-        tallest = max(_height(rows) for columns in pages for rows in columns)
-        high = round((TOP + tallest + PAD - 10) * ui)
-        panel = pygame.Rect(0, 0, max(width, head + 3 * pad), high)
+        pad, step = round(PAD * ui), width + round(BETWEEN * ui)
+        tallest = max(sum(row.height for row in rows) for page in pages for rows in page)
+        panel = pygame.Rect(0, 0, len(pages[0]) * step + pad, 0)
+        panel.height = min(high, round((TOP + tallest + PAD) * ui))
         panel.center = area.center
         painter.panel(surface, panel, theme.plate, 14 * ui, theme.edge)
+        title = f"Keys, page {self.page + 1} of {self.pages}" if self.pages > 1 else "Keys"
+        word = "F1 goes on" if self.page + 1 < self.pages else "F1 closes this"
         middle = panel.top + 34 * ui
         at, end = (panel.left + pad, middle), (panel.right - pad, middle)
         painter.write(surface, title, 21 * ui, theme.ink, bold=True, midleft=at)
         painter.write(surface, word, 14 * ui, theme.muted, midright=end)
         for k, rows in enumerate(pages[self.page]):
-            left = panel.left + pad + k * (column + between)
-            _draw_column(surface, painter, rows, left, panel.top + round(TOP * ui), plan)
-
-
-def _draw_column(
-    surface: pygame.Surface,
-    painter: Painter,
-    rows: Sequence[_Row],
-    left: int,
-    top: float,
-    plan: _Plan,
-) -> None:
-    ui, theme, size = plan.ui, painter.theme, SIZE * plan.ui
-    bottom = top - _raised(rows) * ui
-    for row in rows:
-        top, bottom = bottom, bottom + row.height * ui
-        if not row.labels:
-            at, ink = (left, bottom - HEADING * ui / 2), theme.running.ink
-            painter.write(surface, row.lines[0], size, ink, bold=True, midleft=at)
-            surface.fill(theme.edge, (left, round(bottom - 3 * ui), plan.column, 1))
-            continue
-        middle, x = round(top + ROW * ui / 2), left
-        for name in row.labels:
-            x = draw_cap(surface, painter, name, x, middle, ui)
-        for k, line in enumerate(row.lines):
-            at = (left + row.caps, middle + round(k * LINE * ui))
-            painter.write(surface, line, size, theme.text, midleft=at)
-
-
-# -- layout ---------------------------------------------------------------------------------------
+            corner = panel.left + pad + k * step, panel.top + round(TOP * ui)
+            _draw_column(surface, painter, rows, pygame.Rect(corner, (width, 0)), ui)
 
 
 @lru_cache(maxsize=4)
-def _plan(fonts: Fonts, groups: Named, room: tuple[int, int], ui: float) -> _Plan | None:
-    """Return the largest layout on one page, or on few pages if that is too small to read.
+def _laid_out(
+    fonts: Fonts, groups: Named, room: tuple[int, int], largest: float
+) -> tuple[float, int, list[list[list[_Row]]]]:
+    """Return the scale, the width of a column, and the columns of each page.
 
-    room: width and height, pixels.
+    room: width and height, pixels. largest: the scale of the window, pixels a point.
     """
-    least = max(min(LEGIBLE, ui), LEGIBLE_SHARE * ui)
-    sizes = [ui, *(share * ui for share in SHARES if share * ui > least), least]
-    tried = [(1, size) for size in sizes] + [(count, least) for count in range(2, MAX_PAGES + 1)]
-    for pages, size in tried:
-        limit = room[1] / size - TOP - PAD + 10
-        for count in range(1, MAX_COLUMNS + 1):
-            column, rows = _rows(fonts, groups, room, count, size)
-            columns = _even(rows, limit, pages * count)
-            if columns:
-                each = [columns[k : k + count] for k in range(0, len(columns), count)]
-                return _Plan(size, column, each)
-    return None if ui < UNREADABLE else _plan(fonts, groups, room, 0.8 * ui)
+    for ui in (share * largest for share in SHARES):
+        wide, (least, most) = room[0] - 2 * PAD * ui, WORDS
+        count = min(3, max(1, int((wide / ui + BETWEEN) / (CAPS + least + BETWEEN))))
+        column = min(CAPS + most, (wide / ui + BETWEEN) / count - BETWEEN) * ui
+        rows = _rows(fonts, groups, column, ui)
+        columns = [*_filled(rows, room[1] / ui - TOP - PAD)]
+        if len(columns) <= count:
+            break
+    return ui, round(column), [columns[k : k + count] for k in range(0, len(columns), count)]
 
 
-def _rows(
-    fonts: Fonts, groups: Named, room: tuple[int, int], count: int, ui: float
-) -> tuple[int, list[_Row]]:
-    """Return the width of `count` columns, pixels, and all rows; none if columns are too narrow."""
-    column = (room[0] - 2 * PAD * ui - (count - 1) * BETWEEN * ui) / count
-    rows, widest = [], 0
+def _rows(fonts: Fonts, groups: Named, column: float, ui: float) -> Iterator[_Row]:
     for heading, group in groups:
-        rows.append(_Row((), (heading,)))
-        caps = max(sum(cap_width(fonts, name, ui) for name in key.labels) for key in group)
-        caps += round(10 * ui)
-        words = min(column - caps, MAX_WORDS * ui)
-        if words < MIN_WORDS * ui:
-            return 0, []
+        yield _Row((), (heading,))
         for key in group:
-            lines = fonts.wrap(key.help, SIZE * ui, words, 4)
-            rows.append(_Row(key.labels, lines, caps))
-            widest = max(widest, caps + max(fonts.width(line, SIZE * ui) for line in lines))
-    return widest, rows
+            words = column - max(CAPS * ui, _caps(fonts, key.labels, ui))
+            yield _Row(key.labels, fonts.wrap(key.help, SIZE * ui, words, 4))
 
 
-def _even(rows: Sequence[_Row], limit: float, most: int) -> list[list[_Row]]:
-    """Return at most so many columns up to a height, points, as even as can be; [] for none."""
-    best: list[list[_Row]] = []
-    height = limit
-    while rows and len(columns := _filled(rows, height)) <= most:
-        heights = [*map(_height, columns)]
-        if max(heights) <= limit and (not best or min(heights) > min(map(_height, best))):
-            best = columns
-        height -= ROW / 2
-    return best
+def _filled(rows: Iterable[_Row], limit: float) -> Iterator[list[_Row]]:
+    """Yield columns of rows up to a height, points; no heading stands last."""
+    column: list[_Row] = []
+    left = limit
+    for row in rows:
+        if column and row.height + ROW * (not row.labels) > left:
+            yield column
+            column, left = [], limit
+        column.append(row)
+        left -= row.height
+    yield column
 
 
-def _filled(rows: Sequence[_Row], limit: float) -> list[list[_Row]]:
-    """Return columns up to a height, points; a group is not split if a column can hold it."""
-    columns: list[list[_Row]] = []
-    for k, row in enumerate(rows):
-        rest = takewhile(lambda other: other.labels, rows[k + 1 :])
-        together = [row, *rest] if not row.labels else [row]
-        if not columns or _height([*columns[-1], *together]) > limit:
-            columns.append([])
-        columns[-1].append(row)
-    return columns
+def _draw_column(
+    surface: pygame.Surface, painter: Painter, rows: Sequence[_Row], place: pygame.Rect, ui: float
+) -> None:
+    theme, size, bottom = painter.theme, SIZE * ui, float(place.top)
+    for row in rows:
+        top, bottom = bottom, bottom + row.height * ui
+        if not row.labels:
+            at, ink = (place.left, bottom - 16 * ui), theme.running.ink
+            painter.write(surface, row.lines[0], size, ink, bold=True, midleft=at)
+            surface.fill(theme.edge, (place.left, round(bottom - 3 * ui), place.width, 1))
+            continue
+        middle, x = round(top + ROW * ui / 2), place.left
+        for name in row.labels:
+            x = draw_cap(surface, painter, name, x, middle, ui)
+        left = place.left + max(CAPS * ui, _caps(painter.fonts, row.labels, ui))
+        for k, line in enumerate(row.lines):
+            beside = left, middle + round(k * LINE * ui)
+            painter.write(surface, line, size, theme.text, midleft=beside)
 
 
-def _height(rows: Sequence[_Row]) -> float:
-    return sum(row.height for row in rows) - _raised(rows)
-
-
-def _raised(rows: Sequence[_Row]) -> float:
-    """Return the gap that a heading does not need at the top of a column, points."""
-    return GAP if rows and not rows[0].labels else 0.0
+def _caps(fonts: Fonts, labels: Iterable[str], ui: float) -> float:
+    """Return the room for the caps of keys, pixels."""
+    return sum(cap_width(fonts, name, ui) for name in labels) + 10 * ui
 
 
 def draw_veil(surface: pygame.Surface, painter: Painter, area: pygame.Rect) -> None:

@@ -26,7 +26,6 @@ ASKED = frozenset({
     pygame.MOUSEWHEEL,
 })  # fmt: skip
 """The events that a menu that asks keeps from all else."""
-SIGNS = ((1, "+"), (-1, "\N{MINUS SIGN}"))
 
 
 class Entry(NamedTuple):
@@ -34,9 +33,8 @@ class Entry(NamedTuple):
 
     act: its effect; None for a title. key: the label of a key that has the same effect. on: whether
     its tick box is ticked; None for none. colors: of dots before the title. value: what is written
-    at its right. more: a line below it. step: called with 1 or -1 by the buttons + and - of a
-    number. level: how far the title is indented. tone: "note" for words that are no heading,
-    "warning" for what stands out. field: to type in, beside the title.
+    at its right. more: a line below it. level: how far the title is indented. tone: "note" for
+    words that are no heading, "warning" for what stands out. field: to type in, beside the title.
     """
 
     title: str
@@ -46,7 +44,6 @@ class Entry(NamedTuple):
     colors: Sequence[str] = ()
     value: str = ""
     more: str = ""
-    step: Callable[[int], object] | None = None
     level: int = 0
     tone: str = ""
     field: TextField | None = None
@@ -70,7 +67,6 @@ class Menu:
         self._docked, self.focused = docked, not docked
         self.name, self.corner = "", (0, 0)
         self.plate = pygame.Rect(0, 0, 0, 0)
-        self._signs: list[tuple[Entry, int, pygame.Rect]] = []
         self._places: list[tuple[int, Entry, pygame.Rect]] = []
         self._chosen, self._typed = 0, ""  # the number of an entry; letters typed so far
         self._first = 0  # the entry at the top, where there is no room for all
@@ -92,11 +88,6 @@ class Menu:
     def places(self) -> dict[str, pygame.Rect]:
         """The places of the entries that can be chosen, by their titles."""
         return {entry.title: place for _, entry, place in self._places if entry.act is not None}
-
-    @property
-    def signs(self) -> dict[str, pygame.Rect]:
-        """The places of the buttons + and -, by their sign and the title of their entry."""
-        return {f"{'+' if way > 0 else '-'} {entry.title}": at for entry, way, at in self._signs}
 
     @property
     def below(self) -> tuple[int, int]:
@@ -159,14 +150,9 @@ class Menu:
             if not self._stays:
                 self.close()
             return False
-        pressed = [(e.step, way) for e, way, at in self._signs if at.collidepoint(event.pos)]
         for k, entry in self._under(event.pos):
             self._chosen = k
-            if not pressed:
-                self._choose(entry)
-        for step, way in pressed:
-            if step is not None:
-                step(way)
+            self._choose(entry)
         return True
 
     def _under(self, pixel: tuple[int, int]) -> list[tuple[int, Entry]]:
@@ -185,17 +171,14 @@ class Menu:
         name, entries = pygame.key.name(event.key), self._listed()
         self._chosen = min(self._chosen, len(entries) - 1)
         moves = {"up": -1, "down": 1, "tab": 1, "page up": -8, "page down": 8}
-        ways = {"left": -1, "right": 1}
         if name in MODIFIERS:
             return False
-        named, step = label_of(event), entries[self._chosen].step
+        named = label_of(event)
         by_key = next((entry for entry in entries if entry.act and entry.key == named), None)
         if by_key is not None:
             self._choose(by_key)
         elif name in moves:
             self._move(moves[name])
-        elif name in ways and step is not None:
-            step(ways[name])
         elif name in ("home", "end"):
             self._chosen = -1 if name == "home" else len(entries)
             self._move(1 if name == "home" else -1)
@@ -209,7 +192,7 @@ class Menu:
             return name == "escape" and not self._stays
         else:
             found = self._type(event.unicode.lower(), entries)
-            return found or not self._stays or name in ways
+            return found or not self._stays or name in ("left", "right")
         return True
 
     def _move(self, by: int) -> None:
@@ -279,7 +262,6 @@ class Menu:
             surface.fill(theme.edge, (bounds.left, bounds.top, 1, bounds.height))
         else:
             painter.panel(surface, self.plate, theme.plate, 8 * ui, theme.key_edge)
-        self._signs = []
         for k, entry, place in self._places:
             if entry.act is not None and k == self._chosen and (self.focused or self._pointed):
                 edge = theme.selected if self.focused else theme.key_edge
@@ -344,12 +326,6 @@ class Menu:
             tick = [(box.left + x * side, box.top + y * side) for x, y in TICK]
             thick = max(2, round(2 * ui))
             pygame.draw.lines(surface, theme.plate, closed=False, points=tick, width=thick)
-        for way, sign in SIGNS if entry.step is not None else ():
-            key = pygame.Rect(0, 0, place.height, place.height)
-            key.midright = place.right + round((way - 1) / 2 * 0.8 * key.width), middle
-            at = painter.write(surface, sign, size, theme.muted, center=key.center)
-            self._signs.append((entry, way, at.inflate(pad, pad)))
-            right = at.left - pad
         head = entry.act is None and not entry.tone
         title, value = (theme.muted, theme.ink) if self._docked else (theme.ink, theme.muted)
         if head or entry.tone:

@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import inf, log
 
+import numpy as np
 import pygame
 
 from mars2d.core.scene import Scene
 from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.painter import Painter
 
-SPEED_LINE = 4.0
-"""The height of the speed slider's line, points."""
+LINE = 4.0
+"""The height of the line of a slider, points."""
 WORDS, WORDS_SHARE = 108.0, 0.48
 """The room for the words beside the line: points, and at most this share of the slider."""
 BEHIND = 0.9
@@ -20,16 +21,50 @@ BEHIND = 0.9
 
 
 class Slider:
-    """The base of sliders: a line, and an area round it in which a press moves the handle."""
+    """A line with a handle, from a lowest to a highest value; a press round it moves the handle."""
 
-    def __init__(self) -> None:
+    def __init__(self, low: float = 0.0, high: float = 1.0) -> None:
         """Start with nothing drawn."""
+        self.low, self.high = low, high
         self._line = pygame.Rect(0, 0, 0, 0)
         self._area = pygame.Rect(0, 0, 0, 0)
 
     def hit(self, pixel: tuple[int, int]) -> bool:
         """Return whether a press at a pixel moves the handle."""
         return bool(self._area.collidepoint(pixel))
+
+    def value_at(self, x: float) -> float:
+        """Return the value at a pixel from the left, between the lowest and the highest."""
+        share = (x - self._line.left) / max(1, self._line.width)
+        return self.low + min(max(share, 0.0), 1.0) * (self.high - self.low)
+
+    def x_of(self, value: float) -> float:
+        """Return where a value lies, pixels from the left."""
+        share = (value - self.low) / (self.high - self.low)
+        return self._line.left + self._line.width * min(max(share, 0.0), 1.0)
+
+    def draw_value(
+        self,
+        surface: pygame.Surface,
+        rect: pygame.Rect,
+        painter: Painter,
+        value: float,
+        default: float,
+        *,
+        held: bool,
+    ) -> None:
+        """Draw it within a rectangle, with a tick at the default. held: by the mouse."""
+        ui, theme = painter.ui, painter.theme
+        line = pygame.Rect(rect.left, 0, rect.width, max(2, round(LINE * ui)))
+        line.centery = rect.centery
+        self._place(rect, line, round(8 * ui))
+        tick = pygame.Rect(0, 0, max(1, round(1.5 * ui)), round(12 * ui))
+        tick.center = round(self.x_of(default)), line.centery
+        painter.panel(surface, line, theme.track, line.height / 2)
+        self._fill(surface, painter, self.x_of(value), theme.selected)
+        surface.fill(theme.muted, tick)
+        x, fill = self.x_of(value), theme.selected
+        self._draw_handle(surface, painter, x, ground=theme.plate, fill=fill, large=held)
 
     def _place(self, rect: pygame.Rect, line: pygame.Rect, margin: int) -> None:
         """Set the line, and the area that is as high as `rect` and wider than the line."""
@@ -64,39 +99,27 @@ class Slider:
 
 
 class SpeedSlider(Slider):
-    """Shows the speed on a line with equally spaced rungs.
+    """Shows the speed on a line with equally spaced rungs; its values are their numbers.
 
-    rungs: factors of real time in ascending order, with about equal ratios; the last rung, "max",
-    is inf.
+    rungs: factors of real time in ascending order; after them comes "max", which is inf.
     """
 
     def __init__(self, rungs: Sequence[float]) -> None:
         """Start with nothing drawn."""
-        super().__init__()
+        super().__init__(0.0, len(rungs))
         self.rungs = (*rungs, inf)
 
-    def speed_at(self, x: float) -> float | None:
-        """Return the speed of the rung nearest to a pixel from the left, inf for "max".
+    def speed_at(self, x: float) -> float:
+        """Return the speed of the rung nearest to a pixel from the left, inf for "max"."""
+        return self.rungs[round(self.value_at(x))]
 
-        None while nothing is drawn, or if there is no room for the line.
-        """
-        if self._line.width <= 0:
-            return None
-        last = len(self.rungs) - 1
-        share = (x - self._line.left) / self._line.width
-        return self.rungs[min(max(round(share * last), 0), last)]
-
-    def x_of(self, speed: float) -> float:
+    def x_of_speed(self, speed: float) -> float:
         """Return where a speed lies, pixels from the left; between rungs by its logarithm."""
-        last = len(self.rungs) - 1
-        if speed >= self.rungs[-2]:
-            place = float(last if speed == inf else last - 1)
-        else:
-            speed = max(speed, self.rungs[0])
-            k = max(i for i, rung in enumerate(self.rungs) if rung <= speed)
-            low, high = self.rungs[k], self.rungs[k + 1]
-            place = k + log(speed / low) / log(high / low)
-        return self._line.left + self._line.width * place / last
+        if speed in self.rungs:
+            return self.x_of(self.rungs.index(speed))
+        finite = self.rungs[:-1]
+        place = np.interp(log(max(speed, finite[0])), np.log(finite), range(len(finite)))
+        return self.x_of(float(place))
 
     def draw(
         self,
@@ -116,46 +139,25 @@ class SpeedSlider(Slider):
         pointer: where the mouse is. held: whether the mouse drags the handle. costs: what takes the
         time, which the words beside the slider say under the pointer.
         """
-        ui, theme = painter.ui, painter.theme
+        ui, theme, pad = painter.ui, painter.theme, round(16 * painter.ui)
         surface.fill(theme.bar, rect)
         surface.fill(theme.edge, (rect.left, rect.top, rect.width, 1))
-        self._arrange(rect, ui)
-        if self._line.width <= 0:
+        words = round(min(WORDS * ui, WORDS_SHARE * rect.width))
+        inner = pygame.Rect(rect.left + pad, rect.top, rect.width - 2 * pad - words, rect.height)
+        if inner.width <= 0:
             return
         hovered = held or (pointer is not None and self.hit(pointer))
-        self._draw_line(surface, painter, speed)
-        fill = theme.selected if speed > 0 else theme.bar
-        self._draw_handle(
-            surface, painter, self.x_of(speed), ground=theme.bar, fill=fill, large=hovered
-        )
+        place = self.rungs.index(1.0), self.x_of_speed(speed)
+        value = self.value_at(place[1])
+        self.draw_value(surface, inner, painter, value, place[0], held=hovered)
         self._words(surface, rect, painter, speed, reached)
         if hovered and pointer is not None:
             wanted = self.speed_at(pointer[0])
-            place = round(self.x_of(wanted or 1.0)), rect.top - round(4 * ui)
-            draw_tooltip(surface, painter, times(wanted or 1.0), midbottom=place)
+            at = round(self.x_of_speed(wanted)), rect.top - round(4 * ui)
+            draw_tooltip(surface, painter, times(wanted), midbottom=at)
         elif costs and pointer is not None and rect.collidepoint(pointer):
-            draw_tooltip(
-                surface, painter, costs, bottomright=(rect.right, rect.top - round(4 * ui))
-            )
-
-    def _arrange(self, rect: pygame.Rect, ui: float) -> None:
-        pad = round(16 * ui)
-        words = round(min(WORDS * ui, WORDS_SHARE * rect.width))
-        height = max(2, round(SPEED_LINE * ui))
-        line = pygame.Rect(rect.left + pad, 0, max(0, rect.width - 2 * pad - words), height)
-        line.centery = rect.centery
-        self._place(rect, line, round(10 * ui))
-
-    def _draw_line(self, surface: pygame.Surface, painter: Painter, speed: float) -> None:
-        """Draw the line up to the handle and beyond, and a tick at each rung."""
-        ui, theme, line = painter.ui, painter.theme, self._line
-        painter.panel(surface, line, theme.track, line.height / 2)
-        self._fill(surface, painter, self.x_of(speed), theme.selected)
-        for k, rung in enumerate(self.rungs):
-            x = round(line.left + line.width * k / (len(self.rungs) - 1))
-            long = round((7 if rung in (1.0, inf) else 4) * ui)
-            color = theme.muted if rung == 1.0 else theme.track
-            surface.fill(color, (x, line.bottom + round(3 * ui), max(1, round(ui)), long))
+            at = rect.right, rect.top - round(4 * ui)
+            draw_tooltip(surface, painter, costs, bottomright=at)
 
     def _words(
         self,
@@ -169,66 +171,17 @@ class SpeedSlider(Slider):
         ui, theme, fonts = painter.ui, painter.theme, painter.fonts
         left = self._line.right + round(20 * ui)
         room = rect.right - round(14 * ui) - left
-        word = times(speed)
-        size = next((s for s in (16, 14) if fonts.width(word, s * ui, bold=True) <= room), 12)
         behind = reached is not None and (speed == inf or reached < BEHIND * speed)
-        at = (left, rect.centery - 9 * ui * behind)
+        at, word = (left, rect.centery - 9 * ui * behind), times(speed)
+        size = 16 if fonts.width(word, 16 * ui, bold=True) <= room else 12
         painter.write(surface, word, size * ui, theme.ink, bold=True, midleft=at)
         if reached is None or not behind:
             return
-        text = next(
-            (t for t in (f"reaches {times(reached)}", times(reached))
-             if fonts.width(t, 12.5 * ui) <= room),
-            "",
-        )  # fmt: skip
+        factor = times(reached)
+        fitting = (t for t in (f"reaches {factor}", factor) if fonts.width(t, 12.5 * ui) <= room)
         color = theme.muted if speed == inf else theme.waiting.ink
         below = (left, rect.centery + 11 * ui)
-        painter.write(surface, text, 12.5 * ui, color, midleft=below)
-
-
-class ValueSlider(Slider):
-    """Shows a value on a line from its lowest to its highest, with a tick at its default."""
-
-    def __init__(self) -> None:
-        """Start with nothing drawn."""
-        super().__init__()
-        self._low, self._high = 0.0, 1.0
-
-    def value_at(self, x: float) -> float:
-        """Return the value at a pixel from the left, between the lowest and the highest."""
-        share = (x - self._line.left) / max(1, self._line.width)
-        return self._low + min(max(share, 0.0), 1.0) * (self._high - self._low)
-
-    def x_of(self, value: float) -> float:
-        """Return where a value lies, pixels from the left."""
-        share = (value - self._low) / (self._high - self._low)
-        return self._line.left + self._line.width * min(max(share, 0.0), 1.0)
-
-    def draw(
-        self,
-        surface: pygame.Surface,
-        rect: pygame.Rect,
-        painter: Painter,
-        value: float,
-        default: float,
-        between: tuple[float, float],
-        *,
-        held: bool,
-    ) -> None:
-        """Draw the slider within a rectangle. held: whether the handle is dragged."""
-        ui, theme = painter.ui, painter.theme
-        self._low, self._high = between
-        line = pygame.Rect(rect.left, 0, rect.width, max(2, round(SPEED_LINE * ui)))
-        line.centery = rect.centery
-        self._place(rect, line, round(8 * ui))
-        painter.panel(surface, line, theme.track, line.height / 2)
-        self._fill(surface, painter, self.x_of(value), theme.selected)
-        tick = pygame.Rect(0, 0, max(1, round(1.5 * ui)), round(12 * ui))
-        tick.center = round(self.x_of(default)), line.centery
-        surface.fill(theme.muted, tick)
-        self._draw_handle(
-            surface, painter, self.x_of(value), ground=theme.plate, fill=theme.selected, large=held
-        )
+        painter.write(surface, next(fitting, ""), 12.5 * ui, color, midleft=below)
 
 
 def draw_tooltip(

@@ -64,25 +64,6 @@ def test_how_it_is_read_is_set_by_options_of_the_map(folder):
     assert open_experiment(path, options).scenario.bounds == (-2, 12, -2, 8)
 
 
-@pytest.mark.parametrize(
-    ("pose", "said"),
-    [
-        ("(0.05, 2, 0)", "robot0 has room at robots.0.pose=(0.750, 2.000, 0)"),
-        ("(2, -4, 1)", "robot0 has room at robots.0.pose=(2.000, 0.750, 1)"),
-    ],
-)
-def test_a_robot_that_would_stand_in_a_wall_or_outside_is_told_where_there_is_room(
-    folder, pose, said
-):
-    path = experiment(folder, f"scenario = Scenario(robots=[Robot(pose={pose}, diameter=0.3)])")
-    with pytest.raises(InputError) as caught:
-        open_experiment(path, {"map": "room.wkt"})
-    assert str(caught.value).startswith("walk.py: Robot.pose of robot0 = (")
-    assert str(caught.value).endswith(said)
-    place = eval(said.partition("=")[2])
-    assert open_experiment(path, {"map": "room.wkt", "robots.0.pose": place})
-
-
 def test_the_parameter_map_of_a_scenario_function_gets_the_value(folder):
     (folder / "lab" / "own.wkt").write_text("LINESTRING (0 0, 1 0)")
     path = experiment(
@@ -146,7 +127,7 @@ def test_a_record_keeps_the_walls_not_the_file(folder):
 
 @pytest.mark.slow
 def test_check_shows_what_was_read_and_draws_it(folder):
-    done = mars("check", "room.wkt", "--set", "unit=cm", "--set", "at=(0,1)", "--figure", "a.png")
+    done = mars("check", "room.wkt", "--set", "unit=cm", "--set", "at=(0,1)")
     assert done.stderr == ""
     assert done.stdout.splitlines() == [
         "map         room.wkt, WKT",
@@ -156,7 +137,6 @@ def test_check_shows_what_was_read_and_draws_it(folder):
         "hint        0.06 m is small for a map of robots: is it unit=m (6 m)?",
         "obstacles   1 wall",
         "corners     5, within 0.02 m",
-        "figure: a.png",
     ]
     assert (folder / "a.png").read_bytes().startswith(b"\x89PNG")
 
@@ -165,8 +145,6 @@ def test_check_shows_what_was_read_and_draws_it(folder):
     ("words", "said"),
     [
         (["room.wkt", "--set", "units=cm"], "--set units: no option; did you mean 'unit'?"),
-        (["room.wkt", "--figure", "a.gif"], "--figure a.gif: expected a name that ends in"),
-        (["lab.py", "--figure", "a.png"], "--figure is for maps: .dxf"),
         (
             ["plan.dwg"],
             "plan.dwg: expected a Python file (.py), a learned law (.onnx), a scenario (.toml)",
@@ -178,16 +156,3 @@ def test_check_shows_what_was_read_and_draws_it(folder):
 def test_check_says_what_it_can_not_do(words, said, capsys):
     assert main(["check", *words]) == 2
     assert said in capsys.readouterr().err
-
-
-@pytest.mark.slow
-@each_case("suffix", ["png", "svg"])
-def test_a_picture_of_a_map_is_the_same_each_time(folder, suffix):
-    from mars2d.addons.maps import read
-    from mars2d.output.figures.map import save_map
-
-    for name in ("a", "b"):
-        save_map(read(folder / "room.wkt"), folder / f"{name}.{suffix}")
-    first, second = ((folder / f"{name}.{suffix}").read_bytes() for name in ("a", "b"))
-    assert first == second
-    assert len(first) > 1000

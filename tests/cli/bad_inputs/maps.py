@@ -51,8 +51,6 @@ CASES = [
     typed("a map in a robot's way", "mars2d run random_walk --headless --set map=a.svg",
           "robot0", "inside",
           a__svg=SVG.format('<rect x="0" y="0" width="4" height="4" fill="black"/>')),
-    typed("a map's figure of no format", "mars2d check a.svg --figure a.txt", "a.txt", ".png",
-          a__svg=LINE),
     typed("a set map's unit that is none", "mars2d run random_walk --headless --set map=a.svg "
           "--set map.unit=mtr", "mtr", a__svg=LINE),
 ]  # fmt: skip

@@ -57,7 +57,6 @@ OF_OTHERS = [
         "random_walk",
         "who has won",
     ),
-    ("rules of no page", "mars2d tournament sumo --rules a.txt", "--rules a.txt", ".html"),
     ("an edit without a display", "mars2d edit random_walk", "no display"),
     (
         "a comparison of physics by hand",
@@ -83,8 +82,6 @@ OF_SWEEP = [
     ("a comparison of one value", "random_walk --set sampling_time=1 --compare sampling_time",
      "--compare sampling_time", "one value"),
     ("no workers", "random_walk --workers 0", "workers=0"),
-    ("a row of nothing", "--row 1", "--row 1", "no study"),
-    ("a cluster that is no address", "random_walk --cluster nowhere", "nowhere"),
     ("a study that is not there", "a.csv", "a.csv", "No such file"),
 ]  # fmt: skip
 
@@ -95,7 +92,6 @@ OF_TOURNAMENT = [
     ("a tournament of no workers", "sumo --players players --workers 0", "workers=0"),
     ("a tick of no time", "sumo --players players --tick-limit 0", "tick", "0"),
     ("a match of NaN seconds", "sumo --players players --match-limit nan", "match", "nan"),
-    ("a match's record without a match", "sumo --record a.npz", "--record", "--match"),
 ]
 
 OF_PLOT = [

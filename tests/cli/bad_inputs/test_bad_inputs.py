@@ -14,19 +14,9 @@ import pytest
 
 from mars2d.cli.command_line import main
 from tests.cases import each_case
-from tests.cli.bad_inputs import (
-    commands,
-    constructors,
-    files,
-    laws,
-    maps,
-    messages,
-    options,
-    records,
-    sensors,
-)
+from tests.cli.bad_inputs import files, maps, options, records
 
-KINDS = (constructors, options, files, laws, commands, sensors, messages, records, maps)
+KINDS = (options, files, records, maps)
 
 MOST_LINES = 3
 

@@ -2,10 +2,12 @@
 
 from math import atan2, cos, hypot, pi, sin
 
-RADIUS = 3.3  # m, of the circle about the pillar on which it runs
+FARTHER = 1.25  # m, from the pillar than it starts
 
 
 def control(robot):
-    x, y, _ = robot.sense.pose
-    heading = atan2(y, x) + pi / 2 + 2 * min(0.7, max(-0.5, hypot(x, y) - RADIUS))
-    return 100 * cos(heading), 100 * sin(heading)
+    radius = round(hypot(*robot.sense.pose[:2]), 3) + FARTHER
+    while True:
+        x, y, _ = robot.sense.pose
+        heading = atan2(y, x) + pi / 2 + 2 * min(0.7, max(-0.5, hypot(x, y) - radius))
+        yield 100 * cos(heading), 100 * sin(heading)

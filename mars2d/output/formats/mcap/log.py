@@ -142,7 +142,7 @@ class Log:
                 if not REPLACED_OPEN:
                     self._shut()
                 with self._written("complete, but it can't be packed"):
-                    write_whole(record, self.path, self._file)
+                    write_whole(record, self.path)
         finally:
             self._shut()
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -95,14 +95,14 @@ def write(record: Rows, path: Path) -> None:
     write_whole(record, path)
 
 
-def write_whole(record: Rows, path: Path, held: BinaryIO | None = None) -> None:
-    """Write the record of a whole run, compressed and with an index; held: see `atomic_write`."""
+def write_whole(record: Rows, path: Path) -> None:
+    """Write the record of a whole run, compressed and with an index."""
     from mcap.writer import Writer
 
     header = headers.of_record(record)
     if len(record):
         header["interventions"] = []  # they come with their rows
-    with atomic_write(path, held) as file:
+    with atomic_write(path) as file:
         writer: Any = Writer(file, chunk_size=CHUNK_SIZE)
         tape = Tape(writer)
         tape.begin(header, record.scenario)

@@ -1,0 +1,124 @@
+"""Entries of menus: what can be done with a body or on the floor, plots, layers, leaving."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import partial
+from math import dist
+
+import numpy as np
+
+from mars2d.core.plane import Point
+from mars2d.core.usercode import name_of
+from mars2d.output.layers.table import LAYERS, Layers
+from mars2d.record.frame import Frame
+from mars2d.window.panels.scopes import Scopes
+from mars2d.window.panels.trace import FEW, What
+from mars2d.window.widgets.menu import Entry
+
+Actions = Mapping[str, Callable[[], None]]
+
+MOTION = {"Speed": "speed", "x": "x", "y": "y", "Heading": "theta"}
+CONTACT = {"Contact force": "force", "Contact impulse": "impulse"}
+DYNAMICS = {"Kinetic energy": "kinetic", "Momentum": "momentum.each"}
+OF_ALL = {"Energy, and what has made it": "energy", "Momentum, of all": "momentum"}
+NEAREST = 5
+"""The most bodies whose distance is offered: the nearest."""
+
+
+def layer_entries(layers: Layers, switch: Callable[..., None]) -> list[Entry]:
+    """Return an entry for each layer that people may switch; switch: toggles one of them alone."""
+    return [
+        Entry(
+            each.title, partial(switch, each.name, alone=True), each.key.upper(),
+            getattr(layers, each.name),
+        )
+        for each in LAYERS
+        if each.switch
+    ]  # fmt: skip
+
+
+def entries_of_body(frame: Frame, body: int, actions: Actions, *, live: bool) -> list[Entry]:
+    """Return what can be done with the selected body; live: whether the run can be changed."""
+    entries = [
+        Entry(str(frame.scenario.bodies[body].name)),
+        Entry("Follow with the camera", actions["follow"], "L"),
+        Entry("Plot over time", actions["scopes"], "Q"),
+    ]
+    if live and body < len(frame.scenario.robots):
+        entries.append(Entry("Drive by hand", actions["drive"], "H"))
+    if live:
+        entries.append(Entry("Push with a force ...", actions["push"], "W"))
+    return entries
+
+
+def entries_of_place(
+    point: Point, thing: str, actions: Actions, measure: Callable[[Point], object], *, live: bool
+) -> list[Entry]:
+    """Return what can be done at a point [m] of the floor, or of the thing of this name.
+
+    measure: begins to measure there. live: whether the run can be changed.
+    """
+    entries = [
+        Entry(thing or f"({point[0]:.3g}, {point[1]:.3g}) m"),
+        Entry("Show all", actions["fit"], "F"),
+        Entry("Measure from here", lambda: measure(point), "F8"),
+        Entry("Stopwatch", actions["stopwatch"], "F9"),
+        Entry("Show what is printed", actions["printed"], "F6"),
+    ]
+    if live:
+        entries += [
+            Entry("Draw walls and more", actions["edit"], "E"),
+            Entry("Undo what was done by hand", actions["undo"], "Ctrl Z"),
+        ]
+    return entries
+
+
+def entries_of_leaving(save: Callable[[], None], leave: Callable[[], None]) -> list[Entry]:
+    """Return what can be done with a run in which hands did something, before it is gone."""
+    return [
+        Entry("This run was changed by hand, and is not saved"),
+        Entry("Save it, and leave", save),
+        Entry("Leave without it", leave, "Ctrl Q"),
+        Entry("Stay", lambda: None, "Esc"),
+    ]
+
+
+def entries_of_scopes(frame: Frame, body: int | None, scopes: Scopes) -> list[Entry]:
+    """Return the quantities to plot of a body, an index of `Scenario.bodies`, or of all robots."""
+    scenario = frame.scenario
+    bodies = tuple(range(len(scenario.robots))) if body is None else (body,)
+    who = "All robots" if body is None else str(scenario.bodies[body].name)
+
+    def entry(title: str, what: What, of: tuple[int, ...]) -> Entry:
+        return Entry(title, partial(scopes.switch, what, of), "", scopes.shows(what, of))
+
+    entries = [Entry(who)]
+    entries += [entry(title, what, bodies) for title, what in _columns(frame, body).items()]
+    entries.append(Entry("All bodies"))
+    entries += [entry(title, what, ()) for title, what in OF_ALL.items()]
+    return entries + [entry(name_of(each), each, ()) for each in scopes.functions]
+
+
+def _columns(frame: Frame, body: int | None) -> dict[str, str]:
+    """Return the columns of a body or of all robots, by their titles."""
+    scenario = frame.scenario
+    found = dict(MOTION)
+    robots = scenario.robots if body is None else scenario.robots[body : body + 1]
+    drives = {robot.drive.inputs for robot in robots}
+    if len(drives) == 1:
+        found |= {f"Command {part.name}": f"command.{part.name}" for part in drives.pop()}
+    if robots:
+        found["Effort of the drive"] = "effort"
+    found |= (CONTACT if scenario.physics == "contact" else {}) | DYNAMICS
+    if body is None:
+        return found
+    for sensor in (sensor for robot in robots for sensor in robot.sensors):
+        reading = dict(frame.readings.get(sensor.key, ())).get(body)
+        if sensor.recorded and reading is not None and np.asarray(reading).size <= FEW:
+            found[sensor.key] = sensor.key
+    here = frame.body_pose(body)[:2]
+    others = [other for other in range(len(scenario.bodies)) if other != body]
+    others.sort(key=lambda other: dist(here, frame.body_pose(other)[:2]))
+    names = [str(scenario.bodies[other].name) for other in others[:NEAREST]]
+    return found | {f"Distance to {name}": f"distance.{name}" for name in names}
