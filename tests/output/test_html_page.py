@@ -1,27 +1,29 @@
 """A replay in a browser, driven by real clicks, keys and fingers: what is seen."""
 
 import html
+import io
 import os
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 
 import mars2d
 from mars2d import Robot, Scenario
 from mars2d.addons import Communication, Map, Voronoi
 from mars2d.bodies.props import Box
 from mars2d.output.pages.replay import page
-from mars2d.output.raster.theme import DARK, contrast
 from mars2d.record.interventions import Steer
 from mars2d.record.marks import marks_of
 from mars2d.sensors import Proximity, RangeFinder
 from tests.browser import Tab, differing
+from tests.colors import contrast
 
 REFERENCES = Path(__file__).parent / "references"
 EVIL = "<img src=x onerror=alert(1)>"
-GREEN, ORANGE, FORCE = "#009e73", "#d55e00", "#a3003c"
+GREEN, ORANGE = "#009e73", "#d55e00"
 
 
 def law(world):
@@ -185,8 +187,7 @@ def test_the_slider_goes_where_it_is_dragged_and_by_its_keys(tab):
 
 
 def test_layers_are_switched_by_buttons_and_keys(tab):
-    tab.page.set_viewport_size({"width": 1500, "height": 640})  # room for the buttons
-    tab.settle()
+    tab.click("Show")
     tab.press(*["PageDown"] * 3, "ArrowRight")  # while a message is under way
     keys = {
         "Trails": "t", "Sensors": "s", "Forces": "x", "Messages": "m", "Add-ons": "o",
@@ -202,17 +203,6 @@ def test_layers_are_switched_by_buttons_and_keys(tab):
         tab.press(key)
         assert tab.is_on(switch) is was
         assert differing(tab.picture(), before) < 1e-5, layer
-
-
-def test_a_contact_has_arrows_of_its_force(tab, record):
-    tab.press(*["PageDown"] * 3)
-    show_only(tab, "forces")
-    (contact,) = record.frame(30).contacts
-    x, y = tab.middle_of(FORCE)  # of two arrows of the same length
-    tab.page.mouse.click(x - 12, y)
-    tab.settle()
-    force = np.hypot(contact["normal_impulse"], contact["tangential_impulse"]) / 0.1
-    assert f"crate {force:.1f} N" in tab.text("#panel")
 
 
 def test_a_legend_says_how_long_a_force_is_and_follows_the_zoom(tab):
@@ -351,47 +341,26 @@ def test_a_robot_is_picked_where_it_is_drawn_and_its_numbers_are_those_of_the_re
     assert tab.page.locator("#panel").is_hidden()
 
 
-def test_a_body_is_picked_by_list_and_followed(tab):
+def test_a_body_is_picked_by_list(tab):
     tab.page.select_option("#bodies", label="crate")
     assert tab.text("#panel .kind") == "box"
     tab.page.locator("#picture").click(position={"x": 20, "y": 20})
     tab.page.select_option("#bodies", label=EVIL)
     tab.settle()
     assert tab.text("#panel h2") == EVIL
-    show_only(tab)
-    tab.press("l", "PageDown")
-    assert tab.is_on("#follow")
-    box = tab.page.locator("#picture").bounding_box()
-    center = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-    assert tab.middle_of(ORANGE) == pytest.approx(center, abs=6)
     tab.press("Escape")
     assert tab.page.locator("#panel").is_hidden()
-    assert not tab.is_on("#follow")
-
-
-def test_the_panel_says_what_sensors_read(tab, record):
-    tab.page.select_option("#bodies", label="robot2")
-    tab.settle()
-    scan = record.sensors["range_finder"][0, 0]
-    assert f"range_finder, nearest\n{scan.min():.2f} m at" in tab.text("#panel")
-    tab.page.select_option("#bodies", label="robot0")
-    tab.settle()
-    near = "yes" if record.sensors["proximity"][0, 0] else "no"
-    assert f"proximity\n{near}" in tab.text("#panel").replace("\n\n", "\n")
 
 
 # -- looks ----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_it_looks_as_it_did(open_tab, replay, scheme):
-    tab = open_tab(replay, (700, 560), color_scheme=scheme)
+def test_it_looks_as_it_did(open_tab, replay):
+    tab = open_tab(replay, (700, 560))
     tab.press(*["PageDown"] * 6)
     show_only(tab, "trails", "sensors", "forces", "addons")  # all but letters
-    reference = REFERENCES / f"replay_{scheme}.png"
+    reference = REFERENCES / "replay.png"
     seen = tab.picture()
-    from PIL import Image
-
     if os.environ.get("MARS2D_REFERENCES"):
         reference.parent.mkdir(exist_ok=True)
         Image.fromarray(seen).quantize(128).save(reference, optimize=True)
@@ -400,16 +369,16 @@ def test_it_looks_as_it_did(open_tab, replay, scheme):
 
 
 def test_dark_is_switched_by_button_and_key(tab):
-    paper = tuple(int(DARK.paper[k : k + 2], 16) for k in (1, 3, 5))
-    dark = lambda: (tab.picture() == paper).all(axis=2).mean()  # noqa: E731
-    show_only(tab)
-    light = tab.picture()
-    assert dark() == 0
+    def screen():
+        with Image.open(io.BytesIO(tab.page.screenshot())) as image:
+            return np.asarray(image.convert("RGB"))
+
+    light = screen()
     tab.click("Dark")
     assert tab.is_on("#dark")
-    assert dark() > 0.3
+    assert screen().mean() < 60 < 200 < light.mean()
     tab.press("d")
-    assert differing(tab.picture(), light) == 0
+    assert differing(screen(), light) < 1e-3
 
 
 @pytest.mark.nightly
@@ -511,7 +480,7 @@ def test_a_screen_reader_finds_the_controls(tab):
     for line in (
         "heading", 'slider "Time"', 'button "Play"', 'button "One step on"', 'button "Zoom in"',
         'combobox "Speed"', 'combobox "Pick a robot or prop"', 'button "Help"', "status",
-        'complementary "What is picked"', 'button "Follow"', 'img "Push & ',
+        'complementary "What is picked"', 'img "Push & ',
     ):  # fmt: skip
         assert line in tree, line
     assert "3 robots and 1 prop, seen from above at 0.0 s" in tree
@@ -533,17 +502,12 @@ def test_tab_goes_from_control_to_control_and_shows_where_it_is(tab):
     assert tab.page.locator("body.playing").count() == 0
 
 
-def test_help_lists_the_keys_and_letters_can_be_switched_off(tab):
+def test_help_lists_the_keys(tab):
     tab.press("F1")
     for words in ("play, pause", "trails on and off", "clear the selection"):
         assert words in tab.text("#helping")
-    tab.page.get_by_label("Single letters are keys").uncheck()
     tab.press("Escape")
     assert tab.page.locator("#helping").is_hidden()
-    tab.press("d")
-    assert not tab.is_on("#dark")
-    tab.press("ArrowRight")
-    assert tab.row() == 1
 
 
 def test_about_tells_where_the_run_comes_from(tab, record):

@@ -13,7 +13,7 @@ from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.bodies.props import Ball, Box
 from mars2d.core.scene import Arrow, Line, Polygon, Text
-from mars2d.output.layers.arrows import has_cut
+from mars2d.output.layers.arrows import CUT_WIDTH, EDGE
 from mars2d.output.layers.forces import force_scale, forces
 from mars2d.output.layers.impulses import (
     FRICTION,
@@ -35,6 +35,13 @@ AWAY = Robot(pose=(0, 3, 0), controller=lambda robot: (0.0, 0.0))
 def of(kind, scene, color=None):
     found = [shape for shape in scene.shapes if isinstance(shape, kind)]
     return [each for each in found if color is None or color in (getattr(each, "fill", None),)]
+
+
+def has_cut(scene):
+    return any(
+        isinstance(shape, Line) and (shape.stroke, shape.width) == (EDGE, CUT_WIDTH)
+        for shape in scene.shapes
+    )
 
 
 def length(arrow):

@@ -6,7 +6,7 @@ from pathlib import Path
 import pygame
 import pytest
 
-from mars2d.addons import Beacon, Estimate, Game, Map, Trails, Voronoi, Waypoints
+from mars2d.addons import Beacon, Estimate, Game, Map, Voronoi, Waypoints
 from mars2d.bodies.joints import Hinge, Rope
 from mars2d.bodies.props import Ball, Box
 from mars2d.core.errors import InputError
@@ -130,7 +130,6 @@ def test_a_new_name_holds_wherever_the_body_is_mentioned():
     follow = Robot(pose=(-3, -4, 0), controller=FollowRobot(leader="robot0"))
     mentions = [
         Game({"robot0": ["robot0"], "hunted": ["second", 2]}, hunted=["second"]),
-        Trails(robots=["second", "robot0"]),
         Estimate(robot="robot0"),
     ]
     scenario = furnished()
@@ -146,9 +145,9 @@ def test_a_new_name_holds_wherever_the_body_is_mentioned():
     assert draft.robots[2].controller.leader == "Ada"
     assert draft.base.joints[0].a == "Bo"
     found = draft.scenario()
-    game, trails, estimate = found.addons[-3:]
+    game, estimate = found.addons[-2:]
     assert game.roles == (("robot0", ("Ada",)), ("hunted", ("Bo", 2)))
-    assert (game.hunted, trails.robots, estimate.robot) == (("Bo",), ("Bo", "Ada"), "Ada")
+    assert (game.hunted, estimate.robot) == (("Bo",), "Ada")
     assert (found.random_starts[0].bodies, found.stop_on) == (("Ada",), (("Ada", "box0"),))
     with pytest.raises(InputError, match="'Bo' is the name of another body"):
         draft.renamed(Item("robot", 0), "Bo")

@@ -119,7 +119,10 @@ def test_an_endless_experiment_shows_a_round_time_that_grows(rows, seconds):
     [(0.05, 1, "0.05 s"), (1.0, 7, "7 s"), (0.025, 3, "0.075 s"), (0.5, 3, "1.5 s")],
 )
 def test_times_have_the_decimals_that_tell_rows_apart(dt, row, text):
-    assert text in Drawn(state(row=row, dt=dt)).surface.texts
+    shown = state(row=400, last=400, dt=dt)
+    plain = Drawn(shown)
+    pointer = round(plain.bar.x_of(row)), plain.layout.timebar.centery
+    assert text in Drawn(shown, pointer=pointer).surface.texts
 
 
 # -- the slider -----------------------------------------------------------------------------------

@@ -10,9 +10,9 @@ import pygame
 import pytest
 
 from mars2d import Robot, Scenario, Unicycle
-from mars2d.core.scene import Arrow, Line
+from mars2d.core.scene import Arrow
 from mars2d.output.layers.legend import legends
-from mars2d.output.layers.neighbours import Links
+from mars2d.output.layers.neighbours import neighbours
 from mars2d.output.layers.table import Layers
 from mars2d.output.layers.velocities import speed_scale, velocities
 from mars2d.output.raster.camera import Camera
@@ -67,17 +67,6 @@ def test_what_stands_or_creeps_has_no_arrow_and_what_flies_a_bounded_one():
     assert arrow.tip[0] - arrow.tail[0] == pytest.approx(speed_scale(frame.scenario).longest)
 
 
-@each_case("omega", [1.0, -2.0, 100.0])
-def test_an_arc_goes_from_the_heading_to_that_of_a_second_later(omega):
-    (arc, head) = velocities(frame_of([(1, 2, 0.5)], (0, 0, omega))).shapes
-    assert isinstance(arc, Line)
-    assert isinstance(head, Arrow)
-    heading, turn = 0.5 + 0.1 * omega, np.clip(omega, -5, 5)
-    for place, angle in ((arc.points[0], heading), (head.tip, heading + turn)):
-        x, y = np.array(place) - (1, 2)
-        assert (np.arctan2(y, x) - angle + pi) % (2 * pi) - pi == pytest.approx(0, abs=1e-9)
-
-
 def test_circles_show_how_tightly_a_robot_can_turn_at_its_speed():
     frame = frame_of([(1, 2, pi / 2)], (0, 0.4, 0))
     (robot,) = frame.scenario.robots
@@ -124,10 +113,10 @@ def test_a_name_hides_no_body_and_can_be_read():
 # -- neighbours -----------------------------------------------------------------------------------
 
 
-def linked(frame, links=None):
+def linked(frame):
     """Return whether a line goes from robot to robot, for each pair of neighbours on a row."""
     surface = pygame.Surface(SIZE, 0, 32)
-    Painter().paint(surface, (links or Links())(frame).shapes, CAMERA)
+    Painter().paint(surface, neighbours(frame).shapes, CAMERA)
     middles = CAMERA.to_pixels((frame.pose[:2, 1:] + frame.pose[:2, :-1]).T / 2)
     return [surface.get_at((round(x), round(y)))[:3] != (0, 0, 0) for x, y in middles.tolist()]
 
