@@ -1,8 +1,13 @@
-"""The controls that the window and the replay in a browser share: their titles, keys and icons."""
+"""What the window and the replay in a browser share: controls, and the marks of the time bar."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
+
+from mars2d.output.layers.forces import FORCE
+from mars2d.output.raster.theme import Theme
+from mars2d.record.marks import MarkKind
 
 
 class Control(NamedTuple):
@@ -89,3 +94,24 @@ CONTROLS = {
 
 PAUSE = "M7 5h3.4v14H7ZM13.6 5H17v14h-3.4Z"
 """The icon in place of that to play, while time passes."""
+
+
+class Mark(NamedTuple):
+    """A kind of tick.
+
+    color: in a theme. above, below: whether it stands above and below the line. meaning: in words.
+    """
+
+    color: Callable[[Theme], str]
+    above: bool
+    below: bool
+    meaning: str
+
+
+MARKS: dict[MarkKind, Mark] = {
+    "collision": Mark(lambda theme: theme.shade(FORCE), False, True, "bodies came to touch"),
+    "hand": Mark(lambda theme: theme.hand.ink, True, False, "something was changed by hand"),
+    "branch": Mark(lambda theme: theme.past.ink, True, True, "another branch begins"),
+    "error": Mark(lambda theme: theme.error.ink, True, True, "the run failed"),
+}
+"""In the order in which they are drawn."""

@@ -1,4 +1,4 @@
-"""Contact physics: bodies moved exactly where nothing touches, by forces where something does.
+"""Motion with forces: exact where nothing touches, by the solver where something does; and without.
 
 A body that nothing can reach during the next step is *carried*: robots go to the ends of their arcs
 and props glide, both in closed form, in one step of any length. Bodies that may touch something
@@ -72,3 +72,26 @@ class Engine(Motion):
         A robot that follows its command is held by its drive, a prop at rest by the floor.
         """
         return bool(self._mover.withstands(body, float(force), float(torque)))
+
+
+class Kinematics(Motion):
+    """The motion of one world's bodies where ``Scenario.physics`` is "stop" or "ideal".
+
+    Robots follow their commands exactly, and props glide. With "stop", a robot that would enter
+    another body or an obstacle stands still for the rest of the control step, a prop for good. With
+    "ideal", both go through. Contacts are noted either way, without impulses. Joints do not act.
+    """
+
+    def __init__(self, scenario: Scenario) -> None:
+        """Take all that moves or is touched; see `Motion`."""
+        super().__init__(scenario)
+        self._stops = scenario.physics == "stop"
+
+    @repeated
+    def drive(self, twist: Float, duration: float, time: float) -> None:
+        """Move all bodies for `duration` seconds under constant twists (3, n) of the robots.
+
+        time: at the start, seconds, for the contacts.
+        """
+        self._mover.drift(array("d", twist.tobytes()), duration, time, self._stops)
+        self._moved()

@@ -23,7 +23,7 @@ from mars2d.bodies.joints.base import AttachedJoint
 from mars2d.bodies.props.base import Prop
 from mars2d.bodies.rigid import Rigid, Surface
 from mars2d.core.arithmetic import cosines_sines, norm
-from mars2d.core.materials import GRAVITY, MATERIALS, RULES, material_of
+from mars2d.core.materials import GRAVITY, material_of
 from mars2d.physics.islands import islands, library, settings
 from mars2d.physics.walls import Wall, walls_of
 from mars2d.scenario.robot import Robot
@@ -129,42 +129,26 @@ def _values(surface: Surface | Obstacle) -> tuple[float, ...]:
     return float(surface.friction), float(surface.restitution)
 
 
-def _skin(surface: Surface | Obstacle) -> tuple[float, ...]:
-    """Return these, static friction, and the numbers of the materials by whose names they were."""
+def _skin(surface: Surface | Obstacle) -> tuple[Any, ...]:
+    """Return these, static friction, and the materials by whose names they were given."""
     friction, restitution, static = surface.friction, surface.restitution, surface.static_friction
-    names = [material_of(friction), material_of(restitution)]
-    numbers = [-1 if name is None else [*MATERIALS].index(name) for name in names]
-    return *_values(surface), float(friction if static is None else static), *numbers
+    return *_values(surface), static, material_of(friction), material_of(restitution)
 
 
 def _surfaces(module: Any, scenario: Scenario, bodies: Sequence[Any]) -> Any:
-    """Return the rule of friction and restitution; None where both are products."""
+    """Return what settles friction and restitution; None where both are products."""
     if not _settles(scenario):
         return None
-    of_walls = [_skin(surface) for surface in scenario.surfaces]
-    of_walls += [wall.surface for wall in _walls_in(scenario)]  # in the order of their numbers
-    return module.Surfaces(
-        list(bodies),
-        [module.Surface(*_skin(body.surface)) for body in scenario.bodies],
-        [module.Surface(*skin) for skin in of_walls],
-        (RULES.index(scenario.friction_rule), RULES.index(scenario.restitution_rule)),
-        settings.STICK_SPEED,
-        _pairs(scenario),
-    )
+    count, walls = len(scenario.surfaces), _walls_in(scenario)
 
+    def of(first: int, second: int) -> tuple[float, float, float]:
+        b, a = sorted((first, second))
+        if b < -count:  # a wall of several obstacles, which have the same surface
+            b = -1 - walls[-1 - count - b].owners[0][1]
+        friction = scenario.friction_between
+        return friction(a, b, slides=True), friction(a, b), scenario.restitution_between(a, b)
 
-def _pairs(scenario: Scenario) -> tuple[list[float], list[float], list[float]]:
-    """Return friction, static friction and restitution of pairs of materials, row by row."""
-    names = [*MATERIALS]
-    tables = np.full((3, len(names), len(names)), -1.0)
-    for pair in scenario.material_pairs:
-        static = pair.friction if pair.static_friction is None else pair.static_friction
-        for k, value in enumerate((pair.friction, static, pair.restitution)):
-            if value is not None:
-                a, b = names.index(pair.a), names.index(pair.b)
-                tables[k, a, b] = tables[k, b, a] = value
-    friction, static_friction, restitution = tables.reshape(3, -1).tolist()
-    return friction, static_friction, restitution
+    return module.Surfaces(list(bodies), of, settings.STICK_SPEED)
 
 
 def _seams(module: Any, wall: Wall, reach: float) -> Any:

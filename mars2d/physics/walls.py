@@ -11,7 +11,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
 from math import pi, sqrt
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,7 +27,7 @@ FEW = 48
 
 Float = NDArray[np.float64]
 Whole = NDArray[np.int64]
-Surface = tuple[float, ...]
+Surface = tuple[Any, ...]
 """Coefficients of friction and restitution, and more where these settle contacts."""
 
 

@@ -379,17 +379,17 @@ class Scenario(Description):
         pairs = [(one, other) for ends in self._ending for one, other in (ends, ends[::-1])]
         return self.stop_on == CONTACT or any(a in one and b in other for one, other in pairs)
 
-    def friction_between(self, a: int, b: int) -> float:
-        """Return the coefficient of friction that holds two bodies of a contact, as they rest.
+    def friction_between(self, a: int, b: int, *, slides: bool = False) -> float:
+        """Return the coefficient of friction of two bodies of a contact, as they rest or slide.
 
         a: an index of `bodies`. b: another, or -1 - k for obstacle k, as in contacts.
         """
         sides = self._surfaces(a, b)
         pair = self._pair(*(side.friction for side in sides))
         if pair is not None and pair.friction is not None:
-            return max(pair.friction, pair.static_friction or 0.0)
-        still = (s.friction if s.static_friction is None else s.static_friction for s in sides)
-        return blended(self.friction_rule, *still)
+            return pair.friction if slides else max(pair.friction, pair.static_friction or 0.0)
+        values = (s.friction if slides else s.static_friction or s.friction for s in sides)
+        return blended(self.friction_rule, *values)
 
     def restitution_between(self, a: int, b: int) -> float:
         """Return the coefficient of restitution of two bodies, numbered as for friction."""

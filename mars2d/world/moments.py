@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 
 from mars2d.core.usercode import quiet
-from mars2d.physics.engine import Engine
-from mars2d.physics.kinematics import Kinematics
+from mars2d.physics.engine import Engine, Kinematics
 from mars2d.record.frame import Frame
 from mars2d.world.world import World
 

@@ -16,8 +16,7 @@ from mars2d.core.arithmetic import cosine_sine, norm
 from mars2d.core.description import real, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Point
-from mars2d.physics.engine import Engine
-from mars2d.physics.kinematics import Kinematics
+from mars2d.physics.engine import Engine, Kinematics
 from mars2d.record.interventions import Change, Intervention, Place, Pull, Push, Steer
 from mars2d.scenario.changes import check_same, moves_alike, obstruction, with_poses
 from mars2d.scenario.scenario import Scenario

@@ -16,8 +16,7 @@ from mars2d.core.arrays import locked, sealed
 from mars2d.core.errors import InputError, UnknownNameError, nearest
 from mars2d.core.streams import stream
 from mars2d.core.usercode import called
-from mars2d.physics.engine import Engine
-from mars2d.physics.kinematics import Kinematics
+from mars2d.physics.engine import Engine, Kinematics
 from mars2d.physics.versions import versions
 from mars2d.record.contact import CONTACT
 from mars2d.record.energy import Energy, Momentum, energy_of, momentum_of

@@ -39,8 +39,6 @@ def test_robots_of_less_than_a_hundredth_of_the_arena_have_rings(side, count):
         assert (ring.radius, ring.pixels) == (0.0, RING)  # under a robot that is seen large
 
 
-
-
 # -- legends ---------------------------------------------------------------------------------------
 
 

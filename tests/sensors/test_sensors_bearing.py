@@ -298,7 +298,7 @@ def test_the_world_knows_where_a_moving_beacon_is_now():
     ("fields", "message"),
     [
         ({}, "expected where it stands"),
-        ({"at": (0, 0), "speed": 1}, r"Beacon.speed = 1: a beacon with `at` stands"),
+        ({"at": (0, 0), "speed": 1}, "a `path` needs a `speed`"),
         (
             {"path": [(0, 0)], "speed": 1},
             r"Beacon.path = .*: expected .*, at least 2 different ones",

@@ -27,7 +27,7 @@ from mars2d.addons.maps.drawing import (
     wall,
 )
 from mars2d.addons.maps.regions import GRID, region
-from mars2d.addons.maps.usvg import ROUND, SVG, Size, normalised
+from mars2d.addons.maps.usvg import CLIP, ROUND, SVG, Size, normalised
 from mars2d.core.errors import InputError, shown
 from mars2d.core.extras import extra
 
@@ -77,7 +77,7 @@ def read_svg(path: Path, unit: Unit | None, within: float) -> Drawing:
         pixels = scales[0] if aspect == "none" else (max if "slice" in aspect else min)(scales)
         normal, skipped = normalised(root, size, box)
         unit = unit or _unit(given, pixels)
-        reader = _Reader(name, layers, within, skipped)
+        reader = _Reader(name, normal, layers, within, skipped)
         scale = unit.metres / pixels
         page = np.array([[scale, 0.0, 0.0], [0.0, -scale, scale * size[1]], [0.0, 0.0, 1.0]])
         pieces = _covered(reader.drawn(normal, page, NO_LAYER))
@@ -149,9 +149,12 @@ class _Reader:
     """Reads the paths of an SVG in normal form, and counts what it leaves out."""
 
     def __init__(
-        self, name: str, layers: dict[str, str], within: float, skipped: Counter[str]
-    ) -> None:
+        self, name: str, root: ET.Element, layers: dict[str, str], within: float,
+        skipped: Counter[str],
+    ) -> None:  # fmt: skip
         self._name, self._layers, self._within = name, layers, within
+        self._named = {e.get("id", ""): e for e in root.iter() if e.get("id")}
+        self._clipping: list[str] = []  # the clip paths that are being read
         self.skipped = skipped
 
     def drawn(self, group: ET.Element, matrix: Float, layer: str) -> list[_Drawn]:
@@ -161,7 +164,7 @@ class _Reader:
             kind = element.tag.removeprefix(SVG)
             if kind == "path":
                 found += self._shape(element, _moved(matrix, element), layer)
-            elif kind == "g":
+            elif kind == "g" and not element.get("id", "").startswith(CLIP):
                 found += self._group(element, _moved(matrix, element), layer)
         return found
 
@@ -173,8 +176,37 @@ class _Reader:
             return []
         if float(group.get("opacity", "1")) < 1:
             found = [each for each in found if not each.paper]
-        self.skipped.update(k for k in ("clip-path", "mask", "filter") if group.get(k))
-        return found
+        self.skipped.update(kind for kind in ("mask", "filter") if group.get(kind))
+        return self._clipped(found, group, matrix)
+
+    def _clipped(self, drawn: list[_Drawn], element: ET.Element, matrix: Float) -> list[_Drawn]:
+        """Return what the clip path of an element leaves, if it has one."""
+        import shapely
+
+        name = _reference(element.get("clip-path", ""))
+        clip = self._named.get(name)
+        if clip is None or not drawn or name in self._clipping:
+            return drawn
+        source = self._named.get(CLIP + name, clip)  # or the edge of a nested svg
+        inside = _moved(matrix, source)
+        if clip.get("clipPathUnits") == "objectBoundingBox":
+            back = np.linalg.inv(matrix)
+            shapes = [each.geometry for each in drawn]
+            local = shapely.transform(shapes, lambda xy: xy @ back[:2, :2].T + back[:2, 2])
+            x0, y0, x1, y1 = shapely.total_bounds(local)
+            inside = inside @ np.array([[x1 - x0, 0, x0], [0, y1 - y0, y0], [0, 0, 1]])
+        counts = self.skipped.copy()
+        self._clipping.append(name)
+        window = self.drawn(source, inside, "")
+        self._clipping.pop()
+        self.skipped = counts
+        seen = shapely.union_all([each.geometry for each in window])
+        found = [
+            _Drawn(d.layer, part, d.paper)
+            for d in drawn
+            for part in _same(d.geometry, d.geometry & seen)
+        ]
+        return self._clipped(found, clip, matrix)
 
     def _shape(self, path: ET.Element, matrix: Float, layer: str) -> list[_Drawn]:
         """Return a shape as areas if it is filled, else as walls if it has a line."""
@@ -254,6 +286,11 @@ def _same(before: shapely.Geometry, after: shapely.Geometry) -> list[shapely.Geo
     import shapely
 
     return [p for p in shapely.get_parts(after).tolist() if p.geom_type == before.geom_type]
+
+
+def _reference(text: str) -> str:
+    """Return the id in ``url(#id)``, or nothing."""
+    return text[5:-1] if text.startswith("url(#") else ""
 
 
 def _moved(matrix: Float, element: ET.Element) -> Float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import copy
 import functools
 import re
 import tempfile
@@ -27,11 +28,17 @@ ROUND = "crispEdges"
 ORIGINS = {"left": 0.0, "top": 0.0, "center": 50.0, "right": 100.0, "bottom": 100.0}
 """The words of transform-origin, per cent."""
 
+CLIP = "clip-path-of-"
+"""What the ids of groups begin with that have the shapes of a clip path."""
+
 QUOTED = re.compile(r"url\(\s*['\"]#([^'\"]*)['\"]\s*\)")
 """A reference in quotes, which the normaliser does not know."""
 
 UNITS = re.compile(r"(?<=\d)(deg|px)\b")
 """Units of transforms, which the normaliser does not know; without them they are the same."""
+
+NO_CLIP = (f"{SVG}g", f"{SVG}switch")
+"""Elements that do not count in a clip path."""
 
 NOT_READ = ("text", "image", "foreignObject")
 """Elements that draw something that is never read."""
@@ -41,12 +48,13 @@ def normalised(root: ET.Element, size: Size, box: Size) -> tuple[ET.Element, Cou
     """Return an SVG in normal form, and how many things of each kind are not read.
 
     root: it is changed. size: of its page, pixels. box: of its viewBox. In the result, all shapes
-    are <path> elements in groups with a transform and an opacity. Its unit is a pixel.
+    are <path> elements in groups with a transform, a clip path and an opacity. Its unit is a pixel.
     Raises InputError.
     """
     skipped: Counter[str] = Counter()
     for element in root.iter():
         element.tag = element.tag if element.tag.startswith("{") else SVG + element.tag
+    _copy_clips(root)
     for element in list(root.iter()):
         for child in list(element):
             if (kind := child.tag.removeprefix(SVG)) in NOT_READ:
@@ -86,6 +94,27 @@ def _framed(root: ET.Element, size: Size) -> ET.Element:
     page = ET.Element(f"{SVG}svg", {"width": width, "height": height})
     page.append(root)
     return page
+
+
+def _copy_clips(root: ET.Element) -> None:
+    """Draw the shapes of clip paths in groups at the end of an SVG, and leave them a placeholder.
+
+    The normaliser loses the transforms of shapes within clip paths, but not those of shapes that
+    are drawn.
+    """
+    for clip in list(root.iter(f"{SVG}clipPath")):
+        group = ET.SubElement(root, f"{SVG}g", {"id": CLIP + clip.get("id", "")})
+        group.set("transform", clip.get("transform", "scale(1)"))
+        group.extend(copy.deepcopy(child) for child in clip if child.tag not in NO_CLIP)
+        clip[:] = [ET.Element(f"{SVG}path", {"d": "M0 0H1V1"})]  # so that the clip is kept
+        ET.SubElement(group, f"{SVG}path", {"d": "M0 0H1"})  # so that the group is kept
+        for shape in group.iter():
+            rule = shape.get("clip-rule", clip.get("clip-rule", "nonzero"))
+            style = f"clip-rule:{rule};{shape.get('style', '')}"
+            rule = re.findall(r"clip-rule\s*:\s*(\w+)", style)[-1]
+            if shape is not group:
+                shape.attrib.pop("id", None)
+                shape.set("style", f"{style};fill:black;fill-rule:{rule};fill-opacity:1;opacity:1")
 
 
 def _mark(element: ET.Element) -> None:

@@ -51,9 +51,6 @@ EXPORT = ".mat"
 SUFFIXES = tuple(suffix for suffix in FORMATS if suffix != EXPORT)
 """The endings of files that are read back."""
 
-MAX_STEM = 50
-"""How many letters of a name are kept in the new name of a record that is kept elsewhere."""
-
 
 def save(record: Rows, path: str | Path) -> Path:
     """Write a record in the format that the path's ending names; see `Record.save`."""
@@ -158,7 +155,7 @@ def rescued(record: Rows, path: Path) -> Path | None:
     path: where it should have been saved. The new file is an .npz, which can hold every record.
     """
     with suppress(OSError, InputError):
-        file, name = tempfile.mkstemp(".npz", f"{path.stem[:MAX_STEM]}_")
+        file, name = tempfile.mkstemp(".npz", f"{path.stem[:50]}_")
         os.close(file)
         place = Path(name)
         try:

@@ -22,7 +22,6 @@ MAX_BANNER_LINES = 8
 MAX_CODE_LINES = 5
 MAX_BANNER_SHARE = 0.5
 """The largest share of the surface's height: longer text is cut, lines of code are left out."""
-SEPARATOR = " · "
 MIN_TITLE_WIDTH, NUMBER_WIDTH = 110.0, 120.0
 """The least width of a title, and about that of time and step, which makes room first, points."""
 
@@ -114,8 +113,8 @@ def draw_footer(
 ) -> None:
     """Draw the banner across the footer, or a plain line of text if there is none.
 
-    left: text of parts with dots between; parts at its end are left out if there is no room. hints:
-    (key, action) pairs at the right end; the first ones are left out if there is no room.
+    left: text. hints: (key, action) pairs at the right end; the first ones are left out if there is
+    no room.
     """
     ui, bar, fonts, theme = layout.ui, layout.footer, painter.fonts, painter.theme
     if bar.height <= 0:
@@ -127,10 +126,7 @@ def draw_footer(
     surface.fill(theme.bar, bar)
     surface.fill(theme.edge, (bar.left, bar.top, bar.width, 1))
     end = _hints(surface, painter, hints, bar, ui)
-    text = left
-    while fonts.width(text, 14 * ui) > end - 2 * pad and SEPARATOR in text:
-        text = text.rpartition(SEPARATOR)[0].rstrip()
-    text = fonts.shorten(text, 14 * ui, end - 2 * pad)
+    text = fonts.shorten(left, 14 * ui, end - 2 * pad)
     if len(text) > 3:
         painter.write(surface, text, 14 * ui, theme.muted, midleft=(pad, bar.centery))
 

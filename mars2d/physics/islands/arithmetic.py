@@ -11,13 +11,11 @@ from math import floor, fmod, sqrt
 from mars2d.physics.islands import shadow as cython
 
 
-@cython.cfunc
 def length(x: cython.double, y: cython.double) -> cython.double:
     """Return the length of a vector."""
     return sqrt(x * x + y * y)
 
 
-@cython.cfunc
 def _sine_near_zero(r: cython.double) -> cython.double:
     """Return the sine of an angle of at most pi / 4.
 
@@ -33,7 +31,6 @@ def _sine_near_zero(r: cython.double) -> cython.double:
     return r + r * z * p
 
 
-@cython.cfunc
 def _cosine_near_zero(r: cython.double) -> cython.double:
     """Return the cosine of an angle of at most pi / 4; source as above."""
     z: cython.double = r * r
@@ -48,7 +45,6 @@ def _cosine_near_zero(r: cython.double) -> cython.double:
     return top + (((1.0 - top) - half) + z * z * p)
 
 
-@cython.cfunc
 def cosine_sine(angle: cython.double) -> tuple[cython.double, cython.double]:
     """Return the cosine and the sine of an angle."""
     if angle > 1e6 or angle < -1e6:  # turns of its own no longer fit in the parts of pi below
@@ -70,7 +66,6 @@ def cosine_sine(angle: cython.double) -> tuple[cython.double, cython.double]:
     return s, -c
 
 
-@cython.cfunc
 def sine(angle: cython.double) -> cython.double:
     """Return the sine of an angle."""
     if -0.7853981633974483 < angle < 0.7853981633974483:
@@ -78,13 +73,11 @@ def sine(angle: cython.double) -> cython.double:
     return cosine_sine(angle)[1]
 
 
-@cython.cfunc
 def chord_share(half: cython.double) -> cython.double:
     """Return how long the chord of an arc is, in parts of the arc that turns by twice an angle."""
     return 1.0 if half == 0.0 else sine(half) / half
 
 
-@cython.cfunc
 def _product(a: cython.double, b: cython.double) -> tuple[cython.double, cython.double]:
     """Return a product and its rounding error.
 
@@ -103,7 +96,6 @@ def _product(a: cython.double, b: cython.double) -> tuple[cython.double, cython.
     return p, error + low_a * low_b
 
 
-@cython.cfunc
 def decay_base(rate: cython.double, base: cython.double, h: cython.double) -> cython.double:
     """Return a number near `base` whose power of h any C library rounds to the same number.
 
@@ -139,7 +131,6 @@ def decay_base(rate: cython.double, base: cython.double, h: cython.double) -> cy
     return base * (1.0 - beside / near / h)
 
 
-@cython.cfunc
 def implicitness(x: cython.double) -> cython.double:
     """Return theta of v' = v - x ((1 - theta) v + theta v') with v' = v e^-x, for x >= 0."""
     if x < 1e-3:
@@ -147,7 +138,6 @@ def implicitness(x: cython.double) -> cython.double:
     return 1.0 / (1.0 - exponential(-x)) - 1.0 / x
 
 
-@cython.cfunc
 def power(x: cython.double, exponent: cython.double) -> cython.double:
     """Return x to the power of an exponent, where 0 <= x <= 1 and the exponent is >= 0."""
     if x <= 0.0:
@@ -171,7 +161,6 @@ def power(x: cython.double, exponent: cython.double) -> cython.double:
     return exponential(exponent * (2.0 * s + 2.0 * s * z * p - k * 0.6931471805599453))
 
 
-@cython.cfunc
 def exponential(y: cython.double) -> cython.double:
     """Return e to the power of y <= 0; 0 for y < -700."""
     if y < -700.0:
@@ -181,7 +170,6 @@ def exponential(y: cython.double) -> cython.double:
     r: cython.double = y + n * 6.93147180369123816490e-01
     r = r + n * 1.90821492927058770002e-10
     e: cython.double = 1.0 + r / 13.0
-    k: cython.int
     for k in range(12, 0, -1):
         e = 1.0 + r * e / k
     while n >= 1.0:

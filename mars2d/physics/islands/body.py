@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
+from mars2d.physics.islands.chipmunk import Held
 from mars2d.physics.islands.drive import DrivenBody
 from mars2d.physics.islands.library import Handle
 from mars2d.physics.islands.piece import Piece
-from mars2d.physics.islands.state import Progress, State
+from mars2d.physics.islands.rigid import Progress, State
+
+if TYPE_CHECKING:
+    from mars2d.physics.islands.contacts import Touch
+    from mars2d.physics.islands.island import Island
+    from mars2d.physics.islands.pair import Pair
+    from mars2d.physics.islands.solver import Solver
 
 
-@cython.final
 @cython.cclass
 class Body(DrivenBody):
     """A robot or prop. SI units; "now" is within the present substep, unless it says otherwise."""
@@ -49,10 +55,10 @@ class Body(DrivenBody):
     way: cython.double  # how far it may go, at most
     load: cython.double  # how many robots' pushes add up on it
     slack: cython.double  # how much further than at its speed it may be thrown, a factor
-    home: object  # the body that stands for its island
+    home: Body  # the body that stands for its island
     fastest: cython.double  # of the island that it stands for
     done: cython.bint  # whether its island has been stepped
-    island: object
+    island: Island
     start_x: cython.double  # where the circle's centre was at the beginning
     start_y: cython.double
     kept: cython.bint  # whether what it was like at the beginning was kept
@@ -69,7 +75,7 @@ class Body(DrivenBody):
     reaction_turn: cython.double
     # impulses of contacts in a substep, and for the group of bodies that touch: how they work
     tied: cython.bint  # whether a joint may have acted on it
-    group: object  # another body on the way to that which stands for the group
+    group: Body  # another body on the way to that which stands for the group
     pressure: cython.double  # N s, the sum of their sizes
     hit_x: cython.double
     hit_y: cython.double
@@ -97,15 +103,15 @@ class Body(DrivenBody):
     hold_energy: cython.double
     # since lists of what is near were made
     moved: cython.double
-    wall_pairs: list[Any]
+    wall_pairs: list[Pair]
     wall_gap: cython.double  # a lower bound of that to the nearest wall
     wall_skin: cython.double  # how far it may move until the list of walls has to be made again
     cell: cython.int
     next: cython.int
-    contacts: list[Any]  # with bodies of larger number, and obstacles
-    first_touch: object  # of the pairs that touch now: one of which it is the first body
+    contacts: list[Touch]  # with bodies of larger number, and obstacles
+    first_touch: Pair | None  # of the pairs that touch now: one of which it is the first body
     # in the solver
-    solver: object
+    solver: Solver | None
     placed: cython.bint  # whether it is elsewhere than the solver thinks
     made: cython.bint
     handle: Handle
@@ -113,7 +119,7 @@ class Body(DrivenBody):
     pivot: Handle  # of a robot with wheels, its motors
     side: Handle  # what holds its wheels across
     gear: Handle
-    shapes: list[Any]
+    shapes: list[Held]
 
     def __init__(self, number: int, is_robot: bool, pieces: list[Piece], surface: Any) -> None:
         """Take its number, its pieces, its friction and restitution; `describe` does the rest."""
@@ -153,7 +159,6 @@ class Body(DrivenBody):
         self.by_hand += self.by_holder - by_holder
         self.by_holder = by_holder
 
-    @cython.cfunc
     def look(self) -> cython.void:
         """Work out how fast its velocity may change."""
         self.accelerates = False
@@ -173,7 +178,6 @@ class Body(DrivenBody):
             self.obey()
             self.acceleration = self.pull_on_arc(self.turning) / self.mass
 
-    @cython.cfunc
     def top_speed(self) -> cython.double:
         """Return how fast its circle moves at most now."""
         arm: cython.double = self.offset
@@ -181,7 +185,6 @@ class Body(DrivenBody):
             arm += 2 * abs(self.com)
         return length(self.vx, self.vy) + arm * abs(self.spin)
 
-    @cython.cfunc
     def is_pushed(self) -> cython.bint:
         """Return whether anything but its drive and the floor acted on it in the solver's step.
 
@@ -192,7 +195,6 @@ class Body(DrivenBody):
         )
         return self.tied or self.pulled or self.pressure > 1e-12 * self.mass * fast
 
-    @cython.cfunc
     def advance(self, h: cython.double) -> cython.void:
         """Move for h s as aimed, in closed form."""
         self.x += h * self.aim_x
@@ -202,7 +204,6 @@ class Body(DrivenBody):
             self.placed = True
         self.vx, self.vy, self.spin = self.end_x, self.end_y, self.end_spin
 
-    @cython.cfunc
     def displace(self, x: cython.double, y: cython.double, turn: cython.double) -> cython.void:
         """Move its centre of mass by x and y, metres, and turn it about that, rad."""
         if self.com != 0.0:
@@ -215,7 +216,6 @@ class Body(DrivenBody):
             self.place_com(self.angle)
             self.x, self.y = self.x - self.com_x, self.y - self.com_y
 
-    @cython.cfunc
     def correct(self, h: cython.double) -> cython.void:
         """Go as far as the engine moved it in h s to correct overlaps, beyond its own way."""
         x: cython.double = self.moved_x - (self.back.x + h * self.back.vx)
@@ -224,7 +224,6 @@ class Body(DrivenBody):
         if length(x, y) + self.reach * abs(turn) > 1e-12:  # no rounding error
             self.x, self.y, self.angle = self.x + x, self.y + y, self.angle + turn
 
-    @cython.cfunc
     def fall_back(self) -> cython.void:
         """Go back to where the engine moved it."""
         if self.ahead:

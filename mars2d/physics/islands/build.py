@@ -17,7 +17,7 @@ from pathlib import Path
 HERE = Path(__file__).parent
 
 MODULES = (
-    "arithmetic", "settings", "chipmunk", "piece", "state", "rigid", "drive", "body", "floor",
+    "arithmetic", "settings", "chipmunk", "piece", "rigid", "drive", "body", "floor",
     "flush", "seams", "surfaces", "thrust", "pair", "tie", "solver", "contacts", "impact", "island",
     "neighbours", "mover", "rays",
 )  # fmt: skip
@@ -26,11 +26,23 @@ MODULES = (
 CONSTANTS = r"^([A-Z_]+) = (\d+|\d+\.\d+(?: / \d+\.\d+)?|\d+e-\d+)(?:  #.*)?$"
 """Lines that give a name to a number, which is one of C. Whole numbers are divided in C as such."""
 
+IMPORTS = r"^if TYPE_CHECKING:$|^ *from [^\n]+ import (\([^)]*\)|[^\n]*)\n"
+"""Lines that get names from other modules."""
+
 PREFIXES = r"\b(?:chipmunk|library|settings)\.(\w+)"
 """Names of modules that are imported as such."""
 
 ALIASES = r"^(\w+(?:, \w+)*) = (lib\.cp\w+(?:, lib\.cp\w+)*)$"
 """Lines in which `chipmunk` only gives names to the engine's functions."""
+
+OF_C = r"^( *)def (?!__)(?=\w+\([^)]*\) -> (?!None|bool|int|float|list\[Any|tuple\[Any))"
+"""Where a function begins that only the islands call: its result is none of Python's."""
+
+NO_RESULT = r"(?<!check=False\)\n)^( *)def (\w+\([^)]*\)) -> cython\.void:\n((?:\1 .+\n|\n)+)"
+"""One without a result, which the engine does not call."""
+
+NEVER_FAILS = r"^( *)def (?=\w+\([^)]*\) -> (?:Vector|tuple\[cython.double, cython.double\]):)"
+"""One whose result is a struct: in C there is none that stands for an error."""
 
 FUNCTIONS = """
 void(Handle, double): SpaceStep SpaceSetCurrentTimeStep SpaceSetCollisionSlop
@@ -77,6 +89,7 @@ Vector(Handle, Vector): BodyLocalToWorld
 HEAD = """
 # cython: language_level=3, boundscheck=False, wraparound=False, cdivision=True
 # cython: initializedcheck=False, nonecheck=False, binding=False, auto_pickle=False
+# cython: infer_types=True
 cimport cython
 from libc.math cimport ceil, floor, fmod, sqrt
 from typing import Any
@@ -130,15 +143,35 @@ def _constant(found: re.Match[str]) -> str:
     return f"cdef {'int' if found[2].isdigit() else 'double'} {found[1]} = {found[2]}"
 
 
+def _of_c(text: str) -> str:
+    """Let functions and classes be those of C.
+
+    A function without a result returns 0, or -1 with an error, which is quicker to look for.
+    """
+
+    def with_result(found: re.Match[str]) -> str:
+        body = re.sub(r"^( +return)$", r"\1 0", found[3], flags=re.M)
+        return f"{found[1]}def {found[2]} -> cython.int:\n{body}"
+
+    text = re.sub(NO_RESULT, with_result, text, flags=re.M)
+    text = re.sub(OF_C, r"\1@cython.cfunc\n\1def ", text, flags=re.M)
+    text = re.sub(NEVER_FAILS, r"\1@cython.exceptval(check=False)\n\1def ", text, flags=re.M)
+    for base in re.findall(r"^class \w+\((\w+)\)", text, flags=re.M):
+        text = text.replace(f"@cython.cclass\nclass {base}", f"@cython.cclass  #\nclass {base}")
+    text = text.replace("@cython.cclass\n", "@cython.final\n@cython.cclass\n")
+    known = (f"cdef class {name}\n" for name in re.findall(r"^class (\w+):", text, flags=re.M))
+    return "".join(known) + text
+
+
 def joined() -> str:
     """Return the modules as one for Cython."""
     engine = (HERE / "library.pxi").read_text("utf-8")
     engine = engine.replace("cdef Engine engine", f"{struct()}\ncdef Engine engine")
-    parts = [HEAD.format(fingerprint=fingerprint()), engine]
+    parts = []
     named = in_c()
     for name in MODULES:
         text = (HERE / f"{name}.py").read_text(encoding="utf-8")
-        text = re.sub(r"^from [^\n]+ import (\([^)]*\)|[^\n]*)\n", "", text, flags=re.M)
+        text = re.sub(IMPORTS, "", text, flags=re.M)
         text = re.sub(PREFIXES, lambda found: named.get(found[1], found[1]), text)
         text = re.sub(r"\bcython\.Doubles\b", "cython.double[::1]", text)
         text = re.sub(CONSTANTS, _constant, text, flags=re.M)
@@ -146,7 +179,7 @@ def joined() -> str:
         text = re.sub(r"\blib\.cp", "engine.cp", text)
         text = re.sub(r"^@callback\(.*\)$", "@cython.exceptval(check=False)", text, flags=re.M)
         parts.append(f"# -- {name}.py\n{text}")
-    return "\n".join(parts)
+    return "\n".join([HEAD.format(fingerprint=fingerprint()), engine, _of_c("\n".join(parts))])
 
 
 def compile_into(folder: Path, flags: Sequence[str] = ()) -> Path:

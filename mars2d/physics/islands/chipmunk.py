@@ -6,46 +6,10 @@ from typing import Any
 
 from pymunk._chipmunk_cffi import lib
 
+from mars2d.physics.islands import library
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import cosine_sine, implicitness
-from mars2d.physics.islands.library import (
-    ANGLE,
-    BIAS,
-    CENTER,
-    DAMPED_SPRING,
-    EFFECTIVE_MASS,
-    EFFECTIVE_MOMENT,
-    FAST,
-    GEAR,
-    GEAR_IMPULSE,
-    GROOVE,
-    GROOVE_IMPULSE,
-    LEAD,
-    LOST,
-    LOST_TURNING,
-    PIN,
-    PIVOT,
-    PIVOT_IMPULSE,
-    REST,
-    REST_ANGLE,
-    ROTARY_LIMIT,
-    SLIDE,
-    SPIN,
-    SPIN_BIAS,
-    TURN,
-    Arbiter,
-    Handle,
-    Vector,
-    as_joint,
-    callback,
-    doubles,
-    number_of,
-    numbered,
-    owned,
-    raise_caught,
-    vector,
-    vertices,
-)
+from mars2d.physics.islands.library import Arbiter, Handle, Vector, callback, doubles, vector
 
 set_iterations, ground_of = lib.cpSpaceSetIterations, lib.cpSpaceGetStaticBody
 free_space = lib.cpSpaceFree
@@ -61,10 +25,18 @@ count_of, impulse_of = lib.cpArbiterGetCount, lib.cpArbiterTotalImpulse
 corners_of, set_type = lib.cpPolyShapeGetCount, lib.cpShapeSetCollisionType
 set_data, data_of = lib.cpShapeSetUserData, lib.cpShapeGetUserData
 
+
+@cython.cclass
+class Held:
+    """A thing of the engine that Python keeps: a shape, or a joint."""
+
+    handle: Handle
+    ground: Handle
+
+
 # -- spaces -----------------------------------------------------------------------------------
 
 
-@cython.cfunc
 def new_space(slop: cython.double) -> Handle:
     """Return a space. slop: the overlap that is left in steady contact, metres.
 
@@ -77,7 +49,6 @@ def new_space(slop: cython.double) -> Handle:
     return space
 
 
-@cython.cfunc
 def step(space: Handle, h: cython.double, bias: cython.double) -> cython.void:
     """Step by h seconds, as if the last step had been as long.
 
@@ -86,30 +57,27 @@ def step(space: Handle, h: cython.double, bias: cython.double) -> cython.void:
     lib.cpSpaceSetCollisionBias(space, bias)
     lib.cpSpaceSetCurrentTimeStep(space, h)
     lib.cpSpaceStep(space, h)
-    raise_caught()
+    library.raise_caught()
 
 
 # -- bodies and shapes ------------------------------------------------------------------------
 
 
-@cython.cfunc
 def new_body(mass: cython.double, moment: cython.double, number: cython.int) -> Handle:
     """Return a body, which is found by its number in contacts."""
     body: Handle = lib.cpBodyNew(mass, moment)
-    lib.cpBodySetUserData(body, numbered(number))
+    lib.cpBodySetUserData(body, library.numbered(number))
     lib.cpBodySetPositionUpdateFunc(body, move)
     return body
 
 
-@cython.cfunc
 def new_ground(number: cython.int) -> Handle:
     """Return a body that stands still."""
     body: Handle = lib.cpBodyNewStatic()
-    lib.cpBodySetUserData(body, numbered(number))
+    lib.cpBodySetUserData(body, library.numbered(number))
     return body
 
 
-@cython.cfunc
 def surfaced(shape: Handle, surface: Any) -> Handle:
     """Return a shape with coefficients of friction and restitution."""
     lib.cpShapeSetFriction(shape, surface[0])
@@ -117,7 +85,6 @@ def surfaced(shape: Handle, surface: Any) -> Handle:
     return shape
 
 
-@cython.cfunc
 def new_disc(
     body: Handle, radius: cython.double, x: cython.double, y: cython.double, surface: Any
 ) -> Handle:
@@ -125,13 +92,13 @@ def new_disc(
     return surfaced(lib.cpCircleShapeNew(body, radius, vector(x, y)), surface)
 
 
-@cython.cfunc
 def new_polygon(body: Handle, points: Any, surface: Any) -> Handle:
     """Return a convex polygon on a body, of points (x, y) counter-clockwise."""
-    return surfaced(lib.cpPolyShapeNewRaw(body, len(points), vertices(points), 0.0), surface)
+    return surfaced(
+        lib.cpPolyShapeNewRaw(body, len(points), library.vertices(points), 0.0), surface
+    )
 
 
-@cython.cfunc
 def new_segment(body: Handle, ends: Any, surface: Any) -> Handle:
     """Return a wall without thickness between two points."""
     a: Vector = vector(ends[0][0], ends[0][1])
@@ -139,62 +106,54 @@ def new_segment(body: Handle, ends: Any, surface: Any) -> Handle:
     return surfaced(lib.cpSegmentShapeNew(body, a, b, 0.0), surface)
 
 
-@cython.cfunc
 def weight_at(body: Handle, ahead: cython.double) -> cython.void:
     """Put a body's centre of mass ahead of its pose, metres; velocities are those of the centre."""
     lib.cpBodySetCenterOfGravity(body, vector(ahead, 0.0))
 
 
-@cython.cfunc
 def put(body: Handle, x: cython.double, y: cython.double, angle: cython.double) -> cython.void:
     """Put a body's pose somewhere, with sines that do not depend on the C library."""
     n: cython.p_double = doubles(body)
     c, s = cosine_sine(angle)
-    n[CENTER] = (c * n[LEAD] - s * n[LEAD + 1]) + x
-    n[CENTER + 1] = (s * n[LEAD] + c * n[LEAD + 1]) + y
+    n[library.CENTER] = (c * n[library.LEAD] - s * n[library.LEAD + 1]) + x
+    n[library.CENTER + 1] = (s * n[library.LEAD] + c * n[library.LEAD + 1]) + y
     turn_to(body, angle, c, s)
 
 
-@cython.cfunc
 def turn_to(body: Handle, angle: cython.double, c: cython.double, s: cython.double) -> cython.void:
     """Turn a body about its centre of mass. c, s: the cosine and the sine of its new angle."""
     n: cython.p_double = doubles(body)
-    n[ANGLE] = angle
-    n[TURN], n[TURN + 1], n[TURN + 2], n[TURN + 3] = c, s, -s, c
-    n[TURN + 4] = n[CENTER] - (n[LEAD] * c - n[LEAD + 1] * s)
-    n[TURN + 5] = n[CENTER + 1] - (n[LEAD] * s + n[LEAD + 1] * c)
+    n[library.ANGLE] = angle
+    n[library.TURN], n[library.TURN + 1], n[library.TURN + 2], n[library.TURN + 3] = c, s, -s, c
+    n[library.TURN + 4] = n[library.CENTER] - (n[library.LEAD] * c - n[library.LEAD + 1] * s)
+    n[library.TURN + 5] = n[library.CENTER + 1] - (n[library.LEAD] * s + n[library.LEAD + 1] * c)
 
 
-@cython.cfunc
 @callback("void(cpBody *, double)")
 def move(body: Handle, h: cython.double) -> cython.void:
     """Move a body for h seconds, as the engine does, with sines that depend on no C library."""
     n: cython.p_double = doubles(body)
-    k: cython.int
     for k in range(2):
-        n[CENTER + k] += (n[FAST + k] + n[BIAS + k]) * h
-        n[BIAS + k] = 0.0
-    angle: cython.double = n[ANGLE] + (n[SPIN] + n[SPIN_BIAS]) * h
-    n[SPIN_BIAS] = 0.0
+        n[library.CENTER + k] += (n[library.FAST + k] + n[library.BIAS + k]) * h
+        n[library.BIAS + k] = 0.0
+    angle: cython.double = n[library.ANGLE] + (n[library.SPIN] + n[library.SPIN_BIAS]) * h
+    n[library.SPIN_BIAS] = 0.0
     c, s = cosine_sine(angle)
     turn_to(body, angle, c, s)
 
 
-@cython.cfunc
 def aim(body: Handle, vx: cython.double, vy: cython.double, spin: cython.double) -> cython.void:
     """Give a body a velocity."""
     lib.cpBodySetVelocity(body, vector(vx, vy))
     lib.cpBodySetAngularVelocity(body, spin)
 
 
-@cython.cfunc
 def settle_down(body: Handle) -> cython.void:
     """Let a body forget by which velocity its overlaps are to be corrected in the next step."""
     n: cython.p_double = doubles(body)
-    n[BIAS] = n[BIAS + 1] = n[SPIN_BIAS] = 0.0
+    n[library.BIAS] = n[library.BIAS + 1] = n[library.SPIN_BIAS] = 0.0
 
 
-@cython.cfunc
 def push(body: Handle, x: cython.double, y: cython.double, torque: cython.double) -> cython.void:
     """Let a force and a torque act on a body in the next step."""
     lib.cpBodySetForce(body, vector(x, y))
@@ -204,7 +163,6 @@ def push(body: Handle, x: cython.double, y: cython.double, torque: cython.double
 # -- joints -----------------------------------------------------------------------------------
 
 
-@cython.cfunc
 def make_joint(
     kind: cython.int,
     joint: Handle,
@@ -223,22 +181,22 @@ def make_joint(
     """
     on_a: Vector = vector(ends[0][0], ends[0][1])
     on_b: Vector = vector(ends[1][0], ends[1][1])
-    itself: Handle = owned(kind, joint)
-    made: Handle = as_joint(itself)
-    if kind == PIVOT:
+    itself: Handle = library.owned(kind, joint)
+    made: Handle = library.as_joint(itself)
+    if kind == library.PIVOT:
         lib.cpPivotJointInit(itself, a, b, on_a, on_b)
-    elif kind == GROOVE:
+    elif kind == library.GROOVE:
         lib.cpGrooveJointInit(itself, a, b, vector(-p, -q), vector(p, q), on_b)
-    elif kind == GEAR:
+    elif kind == library.GEAR:
         lib.cpGearJointInit(itself, a, b, p, q)
-    elif kind == SLIDE:
+    elif kind == library.SLIDE:
         lib.cpSlideJointInit(itself, a, b, on_a, on_b, p, q)
-    elif kind == PIN:
+    elif kind == library.PIN:
         lib.cpPinJointInit(itself, a, b, on_a, on_b)
         lib.cpPinJointSetDist(made, p)
-    elif kind == ROTARY_LIMIT:
+    elif kind == library.ROTARY_LIMIT:
         lib.cpRotaryLimitJointInit(itself, a, b, p, q)
-    elif kind == DAMPED_SPRING:
+    elif kind == library.DAMPED_SPRING:
         lib.cpDampedSpringInit(itself, a, b, on_a, on_b, p, q, r)
         if r > 0.0:
             lib.cpDampedSpringSetSpringForceFunc(made, pull)
@@ -249,48 +207,49 @@ def make_joint(
     return made
 
 
-@cython.cfunc
 def set_joint(joint: Handle, bias: cython.double, collide: cython.bint) -> cython.void:
     """Set the share of its error that is left after a second, and whether its bodies collide."""
     lib.cpConstraintSetErrorBias(joint, bias)
     lib.cpConstraintSetCollideBodies(joint, collide)
 
 
-@cython.cfunc
 def set_limits(joint: Handle, least: cython.double, largest: cython.double) -> cython.void:
     """Set the limits of a joint of the kind ROTARY_LIMIT."""
     lib.cpRotaryLimitJointSetMin(joint, least)
     lib.cpRotaryLimitJointSetMax(joint, largest)
 
 
-@cython.cfunc
 @callback("double(cpConstraint *, double)")
 def pull(spring: Handle, length: cython.double) -> cython.double:
     """Return the force of a spring; see `damped`."""
     n: cython.p_double = doubles(spring)
     a: cython.p_double = doubles(lib.cpConstraintGetBodyA(spring))
     b: cython.p_double = doubles(lib.cpConstraintGetBodyB(spring))
-    arms: cython.p_double = n + LOST + 1  # x, y of that to its end on a, then on b
-    normal: cython.p_double = n + EFFECTIVE_MASS + 1
-    x: cython.double = (b[FAST] - b[SPIN] * arms[3]) - (a[FAST] - a[SPIN] * arms[1])
-    y: cython.double = (b[FAST + 1] + b[SPIN] * arms[2]) - (a[FAST + 1] + a[SPIN] * arms[0])
+    arms: cython.p_double = n + library.LOST + 1  # x, y of that to its end on a, then on b
+    normal: cython.p_double = n + library.EFFECTIVE_MASS + 1
+    x: cython.double = (b[library.FAST] - b[library.SPIN] * arms[3]) - (
+        a[library.FAST] - a[library.SPIN] * arms[1]
+    )
+    y: cython.double = (b[library.FAST + 1] + b[library.SPIN] * arms[2]) - (
+        a[library.FAST + 1] + a[library.SPIN] * arms[0]
+    )
     closing: cython.double = x * normal[0] + y * normal[1]
-    stretch: cython.double = n[REST] - length
-    return stretch * damped(spring, REST, LOST, EFFECTIVE_MASS, closing)
+    stretch: cython.double = n[library.REST] - length
+    return stretch * damped(spring, library.REST, library.LOST, library.EFFECTIVE_MASS, closing)
 
 
-@cython.cfunc
 @callback("double(cpConstraint *, double)")
 def twist_back(spring: Handle, angle: cython.double) -> cython.double:
     """Return the torque of a spring that turns; see `damped`."""
     a: cython.p_double = doubles(lib.cpConstraintGetBodyA(spring))
     b: cython.p_double = doubles(lib.cpConstraintGetBodyB(spring))
-    closing: cython.double = a[SPIN] - b[SPIN]
-    rest: cython.double = doubles(spring)[REST_ANGLE]
-    return (angle - rest) * damped(spring, REST_ANGLE, LOST_TURNING, EFFECTIVE_MOMENT, closing)
+    closing: cython.double = a[library.SPIN] - b[library.SPIN]
+    rest: cython.double = doubles(spring)[library.REST_ANGLE]
+    return (angle - rest) * damped(
+        spring, library.REST_ANGLE, library.LOST_TURNING, library.EFFECTIVE_MOMENT, closing
+    )
 
 
-@cython.cfunc
 def damped(
     spring: Handle,
     rest: cython.int,
@@ -316,45 +275,40 @@ def damped(
     return stiffness
 
 
-@cython.cfunc
 def reaction_of(joint: Handle, kind: cython.int) -> Vector:
     """Return the impulse of a joint, PIVOT or GROOVE, on its second body in the last step."""
-    n: cython.p_double = doubles(joint) + (GROOVE_IMPULSE if kind == GROOVE else PIVOT_IMPULSE)
+    n: cython.p_double = doubles(joint) + (
+        library.GROOVE_IMPULSE if kind == library.GROOVE else library.PIVOT_IMPULSE
+    )
     return vector(n[0], n[1])
 
 
-@cython.cfunc
 def twist_of(joint: Handle) -> cython.double:
     """Return the turning impulse of a joint of the kind GEAR on its second body."""
-    impulse: cython.double = doubles(joint)[GEAR_IMPULSE]
+    impulse: cython.double = doubles(joint)[library.GEAR_IMPULSE]
     return impulse
 
 
 # -- contacts ---------------------------------------------------------------------------------
 
 
-@cython.cfunc
 def first_of(arbiter: Arbiter) -> cython.int:
     """Return the number of a contact's first body."""
-    return number_of(arbiter.body_a)
+    return library.number_of(arbiter.body_a)
 
 
-@cython.cfunc
 def second_of(arbiter: Arbiter) -> cython.int:
     """Return the number of a contact's second body."""
-    return number_of(arbiter.body_b)
+    return library.number_of(arbiter.body_b)
 
 
-@cython.cfunc
 def scale(arbiter: Arbiter, ratio: cython.double) -> cython.void:
     """Scale the impulses that the solver keeps of a contact."""
-    k: cython.int
     for k in range(arbiter.count):
         arbiter.contacts[k].jnAcc *= ratio
         arbiter.contacts[k].jtAcc *= ratio
 
 
-@cython.cfunc
 def set_surface(
     arbiter: Arbiter, friction: cython.double, restitution: cython.double
 ) -> cython.void:
@@ -363,13 +317,11 @@ def set_surface(
     lib.cpArbiterSetRestitution(arbiter, restitution)
 
 
-@cython.cfunc
 def shape_of(arbiter: Arbiter, second: cython.bint) -> Handle:
     """Return a contact's first or second shape."""
     return arbiter.b if second else arbiter.a
 
 
-@cython.cfunc
 def put_point(
     arbiter: Arbiter, ax: cython.double, ay: cython.double, bx: cython.double, by: cython.double
 ) -> cython.void:
@@ -377,12 +329,11 @@ def put_point(
     a: cython.p_double = doubles(arbiter.body_a)
     b: cython.p_double = doubles(arbiter.body_b)
     arbiter.count = 1
-    arbiter.contacts[0].r1 = vector(ax - a[CENTER], ay - a[CENTER + 1])
-    arbiter.contacts[0].r2 = vector(bx - b[CENTER], by - b[CENTER + 1])
+    arbiter.contacts[0].r1 = vector(ax - a[library.CENTER], ay - a[library.CENTER + 1])
+    arbiter.contacts[0].r2 = vector(bx - b[library.CENTER], by - b[library.CENTER + 1])
     arbiter.contacts[0].jnAcc = arbiter.contacts[0].jtAcc = 0.0
 
 
-@cython.cfunc
 def point_of(arbiter: Arbiter, k: cython.int, second: cython.bint) -> Vector:
     """Return one of its points, on the surface of its first or second body."""
     if second:
@@ -390,20 +341,17 @@ def point_of(arbiter: Arbiter, k: cython.int, second: cython.bint) -> Vector:
     return lib.cpArbiterGetPointA(arbiter, k)
 
 
-@cython.cfunc
 def depth_of(arbiter: Arbiter, k: cython.int) -> cython.double:
     """Return how deep bodies are in each other in one of its points, metres."""
     apart: cython.double = lib.cpArbiterGetDepth(arbiter, k)
     return -apart
 
 
-@cython.cfunc
 def corner_of(shape: Handle, k: cython.int) -> Vector:
     """Return where a corner of a polygon is."""
     return lib.cpBodyLocalToWorld(lib.cpShapeGetBody(shape), lib.cpPolyShapeGetVert(shape, k))
 
 
-@cython.cfunc
 def place_of(shape: Handle, x: cython.double, y: cython.double) -> Vector:
     """Return where a point in the frame of a shape's body is."""
     return lib.cpBodyLocalToWorld(lib.cpShapeGetBody(shape), vector(x, y))

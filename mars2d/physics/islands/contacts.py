@@ -19,7 +19,6 @@ SAME_TOUCH = 0.7071067811865476
 """The cosine up to which a normal that turns on and on is still that of one touch."""
 
 
-@cython.final
 @cython.cclass
 class Row:
     """A contact of two shapes after a substep, as from the first body to the second.
@@ -37,13 +36,11 @@ class Row:
     vx: cython.double
     vy: cython.double
 
-    @cython.cfunc
     def add_speed(self, body: Body, sign: cython.double) -> cython.void:
         """Add the velocity of the point as one of a body, or subtract it."""
         self.vx += sign * (body.before_x - body.before_spin * (self.y - body.y))
         self.vy += sign * (body.before_y + body.before_spin * (self.x - body.x))
 
-    @cython.cfunc
     def is_above(self, other: Row) -> cython.bint:
         """Return whether it is the stronger one; of equal ones one of them is."""
         mine: cython.double = length(self.impulse_x, self.impulse_y)
@@ -53,7 +50,6 @@ class Row:
         return self.x < other.x or (self.x == other.x and self.y < other.y)
 
 
-@cython.final
 @cython.cclass
 class Touch:
     """The contact of a body with another, or with an obstacle: its number `b` is negative then."""
@@ -82,14 +78,12 @@ class Touch:
         """Take the numbers of both, and the contact by which it is found."""
         self.a, self.b, self.first, self.last = a, b, last, last
 
-    @cython.cfunc
     def begin(self) -> cython.void:
         """Start again, after contacts were taken."""
         self.was_on, self.any, self.base = self.goes_on, False, None
         self.held = self.impulse_x = self.impulse_y = self.push = self.steepest = 0.0
         self.turn_x = self.turn_y = 0.0
 
-    @cython.cfunc
     def keep(self) -> cython.void:
         """Keep it as it is, to begin with it again."""
         copy: Touch = Touch(self.a, self.b, self.last)
@@ -100,7 +94,6 @@ class Touch:
         copy.steepest = self.steepest
         self.kept = copy
 
-    @cython.cfunc
     def likeness(self, row: Row) -> cython.double:
         """Return the cosine of the angle that the normal has turned to be a contact's."""
         x: cython.double = row.normal_x
@@ -109,7 +102,6 @@ class Touch:
             return 0.0
         return self.last.normal_x * x + self.last.normal_y * y
 
-    @cython.cfunc
     def add(self, row: Row) -> cython.void:
         """Add a contact of the present substep."""
         if self.now is None or row.is_above(self.now):
@@ -127,7 +119,6 @@ class Touch:
         self.turn_y += push * (row.normal_y - self.base.normal_y)
         self.steepest = max(self.steepest, abs(friction) / push)
 
-    @cython.cfunc
     def close(self, time: cython.double, h: cython.double, passes_on: cython.bint) -> cython.void:
         """End a substep of h seconds at `time`.
 
@@ -145,7 +136,6 @@ class Touch:
             self.held += h
         self.goes_on = self.now is not None
 
-    @cython.cfunc
     def end(self, time: cython.double) -> cython.void:
         """End it; one that lasted until the control step's start, `time`, has a row of then."""
         if self.goes_on and not self.any:
@@ -159,7 +149,6 @@ class Touch:
             other.time, other.a, other.b, theirs.normal_x, theirs.normal_y,
         )  # fmt: skip
 
-    @cython.cfunc
     def write(self, numbers: cython.Doubles, k: cython.int) -> cython.void:
         """Write the fields of `mars2d.record.contact.CONTACT` from the k-th number on."""
         row: Row = self.first if self.base is None else self.base
@@ -200,13 +189,9 @@ class Touch:
         numbers[k + 14] = 0.0 if self.goes_on else 1.0
 
 
-@cython.cfunc
 def note_row(a: Body, b: cython.int, row: Row) -> cython.void:
     """Add a contact of a body with another or an obstacle to the touch whose normal it has."""
-    touch: Touch
-    found: Touch
     most: cython.double = ALIKE
-    likeness: cython.double
     for touch in a.contacts:
         if touch.b == b:
             likeness = touch.likeness(row)
@@ -218,14 +203,10 @@ def note_row(a: Body, b: cython.int, row: Row) -> cython.void:
     found.add(row)
 
 
-@cython.cfunc
 def close_touches(body: Body, time: cython.double, h: cython.double) -> cython.void:
     """End a substep of h seconds at `time`."""
-    touch: Touch
-    other: Touch
-    passes_on: cython.bint
     for touch in body.contacts:
-        passes_on = False
+        passes_on: cython.bint = False
         if touch.goes_on and touch.now is None:
             for other in body.contacts:
                 passes_on = passes_on or (other.b == touch.b and other.now is not None)
@@ -234,27 +215,21 @@ def close_touches(body: Body, time: cython.double, h: cython.double) -> cython.v
         touch.now = None
 
 
-@cython.cfunc
 def end_touches(body: Body, time: cython.double) -> cython.void:
     """Note that a body touches nothing of larger number, and no obstacle, from `time` on."""
-    touch: Touch
     for touch in body.contacts:
         touch.end(time)
 
 
-@cython.cfunc
 def keep_touches(body: Body) -> cython.void:
     """Keep a body's contacts as they are."""
-    touch: Touch
     for touch in body.contacts:
         touch.keep()
 
 
-@cython.cfunc
 def begin_touches_again(body: Body) -> cython.void:
     """Go back to the contacts that were kept, and drop those that are new."""
-    touch: Touch
-    touches: list[Any] = body.contacts
+    touches = body.contacts
     body.contacts = []
     for touch in touches:
         if touch.kept is not None:
@@ -262,20 +237,13 @@ def begin_touches_again(body: Body) -> cython.void:
     keep_touches(body)
 
 
-@cython.cfunc
-def lasting_touches(body: Body) -> list[Any]:
+def lasting_touches(body: Body) -> list[tuple[int, Row]]:
     """Return whom a body touches since contacts were taken, and the last contact with each."""
-    lasting: list[Any] = []
-    touch: Touch
-    for touch in body.contacts:
-        lasting.append((touch.b, touch.last))  # noqa: PERF401 - as in `Mover.rest`
-    return lasting
+    return [(touch.b, touch.last) for touch in body.contacts]
 
 
-@cython.cfunc
 def touch_on(body: Body, lasting: list[Any]) -> cython.void:
     """Let a body touch the same as one whose `lasting_touches` these are."""
-    touch: Touch
     body.contacts = []
     for b, last in lasting:
         touch = Touch(body.number, b, last)
@@ -283,13 +251,10 @@ def touch_on(body: Body, lasting: list[Any]) -> cython.void:
         body.contacts.append(touch)
 
 
-@cython.cfunc
-def take_touches(bodies: list[Body]) -> list[Any]:
+def take_touches(bodies: list[Body]) -> list[Touch]:
     """Return the contacts since the last call by time, a, b and normal, and forget the ended."""
-    taken: list[Any] = []
-    left: list[Any]
-    body: Body
-    touch: Touch
+    taken: list[Touch] = []
+    left: list[Touch]
     for body in bodies:
         if not body.contacts:
             continue

@@ -57,7 +57,6 @@ class DrivenBody(RigidBody):
             self.strength = max(min(self.force, self.grip_ahead), self.grip_across)
             self.wheeled = self.in_robot_frame
 
-    @cython.cfunc
     def follow(self, angle: cython.double, h: cython.double) -> cython.void:
         """Aim a robot along its command's arc: at the velocity that leads to its end within h s.
 
@@ -72,44 +71,37 @@ class DrivenBody(RigidBody):
         self.aim_y = self.forward * s + self.left * c
         self.aim_spin = self.turning
 
-    @cython.cfunc
     def is_told(self) -> cython.bint:
         """Return whether it is a robot that is commanded to move."""
         told: cython.bint = self.forward != 0.0 or self.left != 0.0 or self.turning != 0.0
         return self.is_robot and told
 
-    @cython.cfunc
     def follows(self) -> cython.bint:
         """Return whether it is a robot that moves as it is commanded at once."""
         return self.is_robot and not self.slips and not self.limited
 
-    @cython.cfunc
     def obey(self) -> cython.void:
         """Let a robot that follows its command have the velocity that it is told now."""
         if self.follows():
             self.follow(self.angle, 0.0)
             self.vx, self.vy, self.spin = self.aim_x, self.aim_y, self.aim_spin
 
-    @cython.cfunc
     def go_along(self, h: cython.double) -> cython.void:
         """Aim a robot along its command's arc for h s, and work out its velocity at the end."""
         self.follow(self.angle + h * self.turning, 0.0)
         self.end_x, self.end_y, self.end_spin = self.aim_x, self.aim_y, self.aim_spin
         self.follow(self.angle, h)
 
-    @cython.cfunc
     def motors(self, ahead: cython.double, speed: cython.double) -> cython.double:
         """Return the force of its motors, N, at a speed ahead, in the direction of `ahead`."""
         if speed * ahead > 0.0:
             return self.force * max(1.0 - abs(speed) / self.no_load_speed, 0.0)
         return self.force
 
-    @cython.cfunc
     def force_across(self) -> cython.double:
         """Return the largest force that it bears across its heading, N."""
         return self.force if self.grip_across >= 1e300 else self.grip_across
 
-    @cython.cfunc
     def set_bound(
         self,
         x: cython.double,
@@ -140,7 +132,6 @@ class DrivenBody(RigidBody):
         if self.bound * abs(ahead) > motors:
             self.bound = motors / abs(ahead)
 
-    @cython.cfunc
     def divide(
         self, ahead: cython.double, across: cython.double, speed: cython.double
     ) -> cython.void:
@@ -160,7 +151,6 @@ class DrivenBody(RigidBody):
         self.bound_across = self.grip_across * sqrt(max(1.0 - a * a, 0.0))
         self.bound_ahead = min(motors, self.grip_ahead * sqrt(max(1.0 - b * b, 0.0)))
 
-    @cython.cfunc
     def time_to_brake(self, turned: cython.double) -> cython.double:
         """Return when its drive stops the spin that a blow has given a robot: there a substep ends.
 
@@ -170,7 +160,6 @@ class DrivenBody(RigidBody):
         moment: cython.double = self.moment + self.mass * self.com * self.com
         return max(spin * moment / self.torque, turned / max(spin * self.rim, 1e-300))
 
-    @cython.cfunc
     def out_of_reach(self, h: cython.double) -> cython.bint:
         """Return whether its drive can't bring it back to its command within h seconds."""
         self.follow(self.angle, h)
@@ -183,7 +172,6 @@ class DrivenBody(RigidBody):
             return True
         return abs(self.spin - self.turning) * self.moment > self.torque * h
 
-    @cython.cfunc
     def takes_more(self, h: cython.double) -> cython.bint:
         """Do `out_of_reach` for one whose drive acts beside its centre of mass.
 
@@ -202,7 +190,6 @@ class DrivenBody(RigidBody):
             return True
         return abs(self.moment * spin + x * push_y - y * push_x) > self.torque * h
 
-    @cython.cfunc
     def look_ahead(self) -> cython.void:
         """Do `look` for such a robot: it moves as it has come to, whatever it is commanded."""
         self.follow(self.angle, 0.0)
@@ -214,25 +201,21 @@ class DrivenBody(RigidBody):
         if self.spin != self.turning:
             self.acceleration += self.torque / self.moment * self.reach
 
-    @cython.cfunc
     def pull_on_arc(self, spin: cython.double) -> cython.double:
         """Return the force that holds it on its command's arc at a spin, N."""
         if not self.in_robot_frame:
             return 0.0
         return self.mass * abs(length(self.forward, self.left) * spin)
 
-    @cython.cfunc
     def is_flung(self, spin: cython.double) -> cython.bint:
         """Return whether its force can't hold it on its command's arc."""
         most: cython.double = self.force_across()
         return self.pull_on_arc(max(abs(spin), abs(self.turning))) > most * (1 + 1e-9)
 
-    @cython.cfunc
     def lags(self, spin: cython.double) -> cython.bint:
         """Return whether a robot of this spin, and of the speed commanded, can't keep it up."""
         return spin != self.turning or self.is_flung(spin)
 
-    @cython.cfunc
     def time_to_turn(self, deep: cython.double) -> cython.double:
         """Return for how long its corners stay within `deep` metres of its present spin."""
         if self.is_disc or not self.accelerates or self.spin == self.turning:

@@ -19,7 +19,6 @@ from mars2d.physics.islands.arithmetic import length, power
 from mars2d.physics.islands.body import Body
 
 
-@cython.cfunc
 def hold(body: Body, h: cython.double) -> cython.void:
     """Set the floor's largest impulses on a body in the next substep of h s.
 
@@ -48,7 +47,6 @@ def hold(body: Body, h: cython.double) -> cython.void:
         body.allowed, body.twist_allowed = body.rest_grip, body.rest_twist_grip
 
 
-@cython.final
 @cython.cclass
 class Glide:
     """How props glide where nothing but the floor acts on them, in closed form."""
@@ -70,7 +68,6 @@ class Glide:
         """Take nodes and weights."""
         self.nodes, self.weights = nodes, weights
 
-    @cython.cfunc
     def over(self, body: Body, h: cython.double) -> cython.void:
         """Aim a prop at where it will be after h seconds, and work out its velocity then."""
         if body.vx == 0.0 and body.vy == 0.0 and body.spin == 0.0:
@@ -91,14 +88,12 @@ class Glide:
         body.end_x, body.end_y = body.vx * self.left, body.vy * self.left
         body.end_spin = body.spin * self.spin_left
 
-    @cython.cfunc
     def remains(self, speed: cython.double, rate: cython.double, h: cython.double) -> cython.double:
         """Return the share of a speed that is left at constant deceleration."""
         if speed <= 0 or (rate > 0 and rate * h >= speed):
             return 0.0
         return 1.0 - rate * h / speed
 
-    @cython.cfunc
     def lasts(self, speed: cython.double, rate: cython.double, h: cython.double) -> cython.double:
         """Return the way by the initial speed, at constant deceleration."""
         moves: cython.double = h
@@ -106,11 +101,9 @@ class Glide:
             moves = speed / rate
         return moves * (1.0 + self.remains(speed, rate, h)) / 2
 
-    @cython.cfunc
     def integral(self, x: cython.double, by: cython.double) -> cython.double:
         """Return the time until x is left of the slow speed; by > 0: weighed by y^by, at y left."""
         total: cython.double = 0.0
-        k: cython.int
         for k in range(len(self.nodes)):
             node: cython.double = self.nodes[k]
             weight: cython.double = self.weights[k]
@@ -121,7 +114,6 @@ class Glide:
             total = total + weight * d
         return (1 - x) * total / self.rate
 
-    @cython.cfunc
     def together(
         self,
         u: cython.double,
@@ -152,7 +144,6 @@ class Glide:
         else:
             self.way, self.spin_way, self.left, self.spin_left = other, way, share, x
 
-    @cython.cfunc
     def left_after(self, h: cython.double) -> cython.double:
         """Return the slow speed that is left after h seconds, by Newton's method.
 
@@ -162,7 +153,6 @@ class Glide:
         high: cython.double = 1.0
         d: cython.double = sqrt(self.slow * self.slow + self.other * self.other)
         x: cython.double = max(1 - self.rate * h / max(d, 1e-150), 0.0)
-        _round: cython.int
         for _round in range(30):
             gone: cython.double = self.integral(x, 0.0)
             if gone >= h:

@@ -27,7 +27,6 @@ LEANS = 1e-9
 """The sine from which on a normal leans over the end of a face."""
 
 
-@cython.cfunc
 def lay(
     p: Piece, q: Piece, x: cython.double, y: cython.double, number: cython.int, room: cython.double
 ) -> cython.bint:
@@ -37,8 +36,6 @@ def lay(
     may be off.
     """
     found: cython.bint = False
-    k: cython.int
-    i: cython.int
     for k in range(len(p.edges)):
         face: Edge = p.edges[k]
         start: Corner = p.corners[k]
@@ -64,7 +61,6 @@ def lay(
     return found
 
 
-@cython.final
 @cython.cclass
 class Flush:
     """A piece of a body, and what straightens its contacts.
@@ -87,7 +83,6 @@ class Flush:
         """Take the piece, and `room`."""
         self.piece, self.room = piece, room
 
-    @cython.cfunc
     def straighten(self, arbiter: Arbiter) -> cython.void:
         """Look at a contact of two bodies before it is solved. It is that of the first shape.
 
@@ -108,7 +103,6 @@ class Flush:
         else:
             self.correct(arbiter, other.piece, False)
 
-    @cython.cfunc
     def look(self, arbiter: Arbiter, slider: Piece, second: cython.bint) -> cython.bint:
         """Return whether a face that goes on elsewhere asks for a contact.
 
@@ -116,7 +110,6 @@ class Flush:
         """
         by: cython.int = chipmunk.first_of(arbiter) if second else chipmunk.second_of(arbiter)
         found: cython.bint = False
-        k: cython.int
         for k in range(len(self.piece.corners)):
             corner: Corner = self.piece.corners[k]
             if corner.ends_in >= 0 and corner.ends_in != by:
@@ -127,7 +120,6 @@ class Flush:
                 return True
         return found
 
-    @cython.cfunc
     def asks(
         self,
         arbiter: Arbiter,
@@ -162,7 +154,6 @@ class Flush:
         deepest: cython.double = -1.0
         px: cython.double = 0.0
         py: cython.double = 0.0
-        corner: Corner
         for corner in slider.corners:
             at: Vector = chipmunk.place_of(shape, corner.local_x, corner.local_y)
             x: cython.double = at.x - slider.radius * fx
@@ -178,7 +169,6 @@ class Flush:
         self.deepest, self.px, self.py = deepest, px, py
         return True
 
-    @cython.cfunc
     def correct(self, arbiter: Arbiter, slider: Piece, second: cython.bint) -> cython.void:
         """Let the face that has asked for a contact push, or leave it out."""
         if not self.leans:
@@ -202,26 +192,22 @@ class Flush:
             chipmunk.put_point(arbiter, x, y, self.px, self.py)
 
 
-@cython.cfunc
 def show(shape: Handle, flush: Flush) -> cython.void:
     """Say what is to straighten contacts with a shape of a body, once it is joined."""
     chipmunk.set_data(shape, library.address_of(flush))
 
 
-@cython.cfunc
 def join(shape: Handle) -> cython.void:
     """Let contacts with a shape of a body be straightened."""
     chipmunk.set_type(shape, library.JOINED)
 
 
-@cython.cfunc
 def flush_of(arbiter: Arbiter, second: cython.bint) -> Flush:
     """Return what was shown of a contact's first or second shape."""
     flush: Flush = library.thing_at(chipmunk.data_of(chipmunk.shape_of(arbiter, second)))
     return flush
 
 
-@cython.cfunc
 @library.callback("void(cpArbiter *, cpSpace *, void *)")
 def straighten_contact(arbiter: Arbiter, _space: Handle, _data: Handle) -> cython.void:
     """Let the pieces of two bodies straighten a contact before it is solved."""

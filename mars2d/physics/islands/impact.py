@@ -12,7 +12,6 @@ from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.library import Arbiter, Vector
 from mars2d.physics.islands.solver import Solver
-from mars2d.physics.islands.tie import Tie
 
 REBOUND = 0.1
 """How much faster than by its restitution a contact may throw back a body that it has stopped.
@@ -31,7 +30,6 @@ FEW_BODIES = 2
 """Of how many bodies that touch at most this is asked: in a heap some contacts would give way."""
 
 
-@cython.final
 @cython.cclass
 class Impact:
     """The contact of two shapes in a substep: one is of body a, the other of b or of a wall."""
@@ -55,7 +53,6 @@ class Impact:
         """Stand for none yet; body: any."""
         self.a = self.b = body
 
-    @cython.cfunc
     def take(self, arbiter: Arbiter, numbers: list[Body]) -> cython.void:
         """Stand for a contact that the solver knows."""
         first: cython.int = chipmunk.first_of(arbiter)
@@ -65,7 +62,6 @@ class Impact:
         self.b = numbers[second if second >= 0 else first]
         self.normal_x, self.normal_y = arbiter.n.x, arbiter.n.y
 
-    @cython.cfunc
     def look_at(self, arbiter: Arbiter, k: cython.int) -> cython.void:
         """Stand for one of its points."""
         arm: Vector = arbiter.contacts[k].r1
@@ -75,7 +71,6 @@ class Impact:
         self.push, self.friction = arbiter.contacts[k].jnAcc, arbiter.contacts[k].jtAcc
         self.depth = chipmunk.depth_of(arbiter, k)
 
-    @cython.cfunc
     def hit(self) -> cython.void:
         """Add the impulse in this point to those of the bodies."""
         x: cython.double = self.push * self.normal_x - self.friction * self.normal_y
@@ -91,7 +86,6 @@ class Impact:
             self.b.hit_turn += self.arm_bx * y - self.arm_by * x
             self.b.pressure += self.push + abs(self.friction)
 
-    @cython.cfunc
     def work(self, bounce: cython.double, h: cython.double) -> cython.void:
         """Add up for the group how the impulse in this point works, its rebound, and its age.
 
@@ -125,14 +119,11 @@ class Impact:
         group.friction_work += self.friction * ((y + after_y) * nx - (x + after_x) * ny) / 2
         group.excess += self.push * (parting + bounce)
 
-    @cython.cfunc
     def power(self) -> cython.void:
         """Add up for the group the power of the impulse on the motion due to all impulses alone."""
         group: Body = group_of(self.a)
         x: cython.double = 0.0
         y: cython.double = 0.0
-        body: Body
-        turn: cython.double
         if self.has_b:
             body = self.b
             turn = body.hit_turn / body.moment
@@ -147,18 +138,14 @@ class Impact:
         group.friction_power += self.friction * (y * self.normal_x - x * self.normal_y)
 
 
-@cython.cfunc
 def group_of(body: Body) -> Body:
     """Return the body that stands for all that touch each other in this substep."""
-    above: Body
     while body.group is not body:
-        above = body.group
-        body.group = above.group
-        body = above
+        body.group = body.group.group
+        body = body.group
     return body
 
 
-@cython.cfunc
 def join_groups(a: Body, b: Body) -> cython.void:
     """Let one body stand for the groups of both."""
     a, b = group_of(a), group_of(b)
@@ -176,14 +163,12 @@ def join_groups(a: Body, b: Body) -> cython.void:
     a.springy = a.springy or b.springy
 
 
-@cython.cfunc
 def settle(solver: Solver, numbers: list[Body], impact: Impact, h: cython.double) -> cython.void:
     """Let the solver's step of h s add no energy by contacts or joints; add up their work.
 
     Of bodies that touch or hold each other, all impulses are weakened by one factor, so momentum is
     kept. impact: any, to work with.
     """
-    body: Body
     for body in solver.bodies:
         body.group, body.springy, body.tied = body, False, False
         body.hit_x = body.hit_y = body.hit_turn = body.pressure = 0.0
@@ -209,7 +194,6 @@ def settle(solver: Solver, numbers: list[Body], impact: Impact, h: cython.double
         body.by_friction += body.friction_work
 
 
-@cython.cfunc
 def find_shifts(solver: Solver, h: cython.double) -> cython.void:
     """Find out since when, in the mean, the impulses on each group have acted in a step of h s.
 
@@ -218,9 +202,6 @@ def find_shifts(solver: Solver, h: cython.double) -> cython.void:
     drives, floors, joints and pulls have given. Else it was an impact: it acted since bodies came
     to touch. Of what touched before nothing is known.
     """
-    body: Body
-    group: Body
-    tie: Tie
     for body in solver.bodies:
         body.held_by, body.lasting = 0.0, True
     for tie in solver.ties:
@@ -253,11 +234,8 @@ def find_shifts(solver: Solver, h: cython.double) -> cython.void:
             body.shift = middle
 
 
-@cython.cfunc
 def take_hits(solver: Solver, numbers: list[Body], impact: Impact, h: cython.double) -> cython.void:
     """Find the groups that touch, the impulses on each body, and how they work."""
-    i: cython.int
-    k: cython.int
     for i in range(solver.arbiters.count()):
         arbiter: Arbiter = solver.arbiters.at(i)
         impact.take(arbiter, numbers)
@@ -273,14 +251,10 @@ def take_hits(solver: Solver, numbers: list[Body], impact: Impact, h: cython.dou
             impact.work(arbiter.contacts[k].bounce, h)
 
 
-@cython.cfunc
 def look_again(
     solver: Solver, numbers: list[Body], impact: Impact, at_power: cython.bint
 ) -> cython.void:
     """Find the power of contacts' impulses on the motion due to them alone, or again their work."""
-    i: cython.int
-    k: cython.int
-    body: Body
     for body in solver.bodies:
         if at_power:
             body.push_power = body.friction_power = 0.0
@@ -297,12 +271,9 @@ def look_again(
                 impact.work(0.0, 0.0)
 
 
-@cython.cfunc
 def weaken_contacts(solver: Solver) -> cython.bint:
     """Weaken contacts that add energy, or more rebound than their restitution; return if any do."""
     weaken: cython.bint = False
-    body: Body
-    group: Body
     for body in solver.bodies:
         if body.group is body:
             body.share = share_of(body)
@@ -316,7 +287,6 @@ def weaken_contacts(solver: Solver) -> cython.bint:
     return True
 
 
-@cython.cfunc
 def share_of(group: Body) -> cython.double:
     """Return the share of their impulses that a group's contacts may keep, and let that work.
 
@@ -338,7 +308,6 @@ def share_of(group: Body) -> cython.double:
     return share
 
 
-@cython.cfunc
 def spare(group: Body) -> cython.double:
     """Return the part of the energy of a group's impulses that these may add to it.
 
@@ -349,7 +318,6 @@ def spare(group: Body) -> cython.double:
     return DRIVEN if group.crowd <= DRIVEN_BODIES else 1e300
 
 
-@cython.cfunc
 def weaken_body(
     body: Body, x: cython.double, y: cython.double, turn: cython.double, share: cython.double
 ) -> cython.void:
@@ -362,11 +330,8 @@ def weaken_body(
     body.hit_turn *= share
 
 
-@cython.cfunc
 def scale_all(solver: Solver, numbers: list[Body], impact: Impact) -> cython.void:
     """Let the solver remember only the part of the contacts' impulses that they keep."""
-    i: cython.int
-    group: Body
     for i in range(solver.arbiters.count()):
         impact.take(solver.arbiters.at(i), numbers)
         group = group_of(impact.a)
@@ -374,12 +339,8 @@ def scale_all(solver: Solver, numbers: list[Body], impact: Impact) -> cython.voi
             chipmunk.scale(solver.arbiters.at(i), group.share)
 
 
-@cython.cfunc
 def take_holds(solver: Solver, h: cython.double) -> cython.void:
     """Find the groups that joints hold, and the impulses on them that no drive or pull explains."""
-    tie: Tie
-    body: Body
-    group: Body
     for tie in solver.ties:
         tie.a.tied = tie.b.tied = True
         join_groups(tie.a, tie.b)
@@ -400,14 +361,11 @@ def take_holds(solver: Solver, h: cython.double) -> cython.void:
             body.held_turn -= body.reaction_turn
 
 
-@cython.cfunc
 def weaken_holds(solver: Solver) -> cython.bint:
     """Weaken joints and contacts that together add energy; return whether any do.
 
     Those of a group with a spring may: it gives what it took before.
     """
-    body: Body
-    group: Body
     for body in solver.bodies:
         body.hold_work = body.hold_energy = 0.0
         body.share = 1.0

@@ -28,7 +28,6 @@ STUCK = 16
 """After how many substeps in a row with bodies too deep in each other they are corrected faster."""
 
 
-@cython.final
 @cython.cclass
 class Accuracy:
     """How finely islands are stepped, as `settings` say: metres, and seconds.
@@ -82,7 +81,6 @@ class Accuracy:
         return self.seam_depth
 
 
-@cython.final
 @cython.cclass
 class Island:
     """Some bodies, and all that they may touch in this control step."""
@@ -129,7 +127,6 @@ class Island:
         self.contact_step = 1e300
         self.impact = Impact(numbers[0])
 
-    @cython.cfunc
     def clear(self) -> cython.void:
         """Make it one without bodies."""
         del self.bodies[:]
@@ -139,11 +136,9 @@ class Island:
 
     # -- before the first substep -------------------------------------------------------------
 
-    @cython.cfunc
     def set_accuracy(self) -> cython.void:
         """Work out the solver's iterations, and how pushes drive bodies into each other."""
         accuracy: Accuracy = self.accuracy
-        body: Body
         robots: cython.int = 0
         strongest: cython.double = 0.0
         push: cython.double = 0.0
@@ -172,7 +167,6 @@ class Island:
         self.least_load = sqrt(self.most_load)
         self.load = min(max(self.load, self.least_load), self.most_load)
 
-    @cython.cfunc
     def set_contact_step(self) -> cython.void:
         """Work out the longest substep in contact: the pushes that add up use no more than room.
 
@@ -187,7 +181,6 @@ class Island:
         if self.ties:
             self.contact_step = min(self.contact_step, accuracy.spring_step)
 
-    @cython.cfunc
     def adapt_iterations(self) -> cython.void:
         """Learn from overlaps how many pushes add up, and how hard the solver has to try."""
         accuracy: Accuracy = self.accuracy
@@ -203,7 +196,6 @@ class Island:
             self.tries = 0
         self.set_iterations()
 
-    @cython.cfunc
     def set_iterations(self) -> cython.void:
         """Let the solver have more iterations while it has to try harder."""
         count: cython.int = self.iterations
@@ -211,31 +203,23 @@ class Island:
             count = count * settings.ITERATION_FACTOR + 2 * self.tries
         chipmunk.set_iterations(self.solver.space, count)
 
-    @cython.cfunc
     def commit(self) -> cython.void:
         """Take a solver for these bodies alone: that in which most of them are."""
         self.solved = True
         self.solver = self.find_solver()
         solver: Solver = self.solver
-        k: cython.int
-        body: Body
-        one: Solver
-        for k in range(len(solver.bodies) - 1, -1, -1):
-            body = solver.bodies[k]
+        for body in solver.bodies[::-1]:
             if body.island is not self:
                 solver.leave(body)
         for body in self.bodies:
             if body.solver is not solver:
                 if body.solver is not None:
-                    one = body.solver
-                    one.leave(body)
+                    body.solver.leave(body)
                 solver.enter(body)
-        pair: Pair
         for pair in self.pairs:
             if pair.is_wall and pair.walled_in is not solver.walls:
                 solver.wall_off(pair.wall)
                 pair.walled_in = solver.walls
-        tie: Tie
         for tie in self.ties:
             solver.tie(tie)
         solver.hurries = False
@@ -244,24 +228,18 @@ class Island:
         self.set_iterations()
         solver.used = True
 
-    @cython.cfunc
     def find_solver(self) -> Solver:
         """Return the solver in which most of these bodies are, or one that nobody uses."""
-        solver: Solver
-        one: Solver
         most: cython.int = 0
-        body: Body
-        other: Body
         for body in self.bodies:
             if body.solver is None:
                 continue
-            one = body.solver
             count: cython.int = 0
             for other in self.bodies:
-                if other.solver is one:
+                if other.solver is body.solver:
                     count += 1
             if count > most:
-                most, solver = count, one
+                most, solver = count, body.solver
             if 2 * most >= len(self.bodies):
                 break
         if most > 0:
@@ -270,28 +248,19 @@ class Island:
             solver = self.spare.pop()
             solver.idle = False
         else:
-            solver = Solver(
-                self.accuracy.slop,
-                self.accuracy.seam_depth,
-                self.surfaces,
-            )
+            solver = Solver(self.accuracy.slop, self.accuracy.seam_depth, self.surfaces)
             self.solvers.append(solver)
         return solver
 
     # -- substeps -----------------------------------------------------------------------------
 
-    @cython.cfunc
     def run(self, duration: cython.double, time: cython.double) -> cython.bint:
         """Step through `duration` s; return whether nobody went further than was thought possible.
 
         time: at the beginning, s.
         """
         elapsed: cython.double = 0.0
-        h: cython.double
-        left: cython.double
         count: cython.int = 0
-        k: cython.int
-        body: Body
         self.set_accuracy()
         self.measure()
         for body in self.bodies:
@@ -334,11 +303,8 @@ class Island:
             body.load = self.load
         return True
 
-    @cython.cfunc
     def measure(self) -> cython.void:
         """Measure all gaps, and find who touches something."""
-        body: Body
-        pair: Pair
         self.any_touch = False
         self.deepest = 0.0
         for body in self.bodies:
@@ -350,12 +316,9 @@ class Island:
                 self.any_touch = pair.a.touches = pair.b.touches = True
                 pair.next_touch, pair.a.first_touch = pair.a.first_touch, pair
 
-    @cython.cfunc
     def find_flush(self) -> cython.void:
         """Find the bodies that lie flush, for the solver."""
         room: cython.double = self.accuracy.seam_depth / 8
-        body: Body
-        pair: Pair
         for body in self.bodies:
             if body.laid:
                 body.lift()
@@ -365,13 +328,11 @@ class Island:
             if pair.gap < room and not pair.is_wall:
                 pair.lay(room)
 
-    @cython.cfunc
     def hold_back(self) -> cython.void:
         """Leave bodies where the engine moved them that else would be too deep in each other.
 
         It moved them by the velocities that they had, for which gaps are known to be wide enough.
         """
-        pair: Pair
         any_back: cython.bint = self.deepest > self.accuracy.entry
         while any_back:
             any_back = False
@@ -383,13 +344,10 @@ class Island:
             if any_back:
                 self.measure()
 
-    @cython.cfunc
     def preload(self) -> cython.void:
         """Press bodies together that touch by a rounding error only, and would part by another."""
         preload: cython.double = self.accuracy.preload
         any_moved: cython.bint = False
-        body: Body
-        pair: Pair
         for body in self.bodies:
             body.back.go_to(body)
         for pair in self.pairs:
@@ -402,32 +360,25 @@ class Island:
             any_moved = self.preload_again()
             count += 1
 
-    @cython.cfunc
     def preload_again(self) -> cython.bint:
         """Press those together that others were drawn away from; return whether there were any."""
         preload: cython.double = self.accuracy.preload
         any_moved: cython.bint = False
-        body: Body
-        pair: Pair
         for body in self.bodies:
-            found: object = body.first_touch
-            while found is not None:
-                pair = found
-                found = pair.next_touch
+            pair = body.first_touch
+            while pair is not None:
                 gap: cython.double = pair.gap + opened(pair)
                 if gap > -preload / 8:
                     draw_together(pair, preload + gap)
                     any_moved = True
+                pair = pair.next_touch
         return any_moved
 
-    @cython.cfunc
     def look_ahead(self, left: cython.double) -> cython.double:
         """Find who slips and how all move, and return how long the next substep is.
 
         left: s, until the end.
         """
-        body: Body
-        tie: Tie
         for tie in self.ties:
             tie.measure()
             if tie.holds():
@@ -444,13 +395,9 @@ class Island:
                 body.obey()
         return self.shorten(h, left) if any_back else h
 
-    @cython.cfunc
     def shorten(self, h: cython.double, left: cython.double) -> cython.double:
         """Return how long of h s the next substep may be, by how gaps close and joints stretch."""
-        accuracy: Accuracy = self.accuracy
-        body: Body
-        pair: Pair
-        tie: Tie
+        accuracy = self.accuracy
         for body in self.bodies:
             body.look()
         for body in self.bodies:
@@ -463,7 +410,6 @@ class Island:
             h = min(h, tie.time_to_jerk(accuracy.stretch, accuracy.joint_tolerance))
         return left / ceil(left / h - 1e-9)  # equal substeps settle best, and leave no sliver
 
-    @cython.cfunc
     def depth_of(self, pair: Pair) -> cython.double:
         """Return how deep a pair may be when a blow turns it.
 
@@ -481,14 +427,12 @@ class Island:
             return self.accuracy.touch
         return self.accuracy.entry
 
-    @cython.cfunc
     def contact_limit(self, left: cython.double) -> cython.double:
         """Mark the bodies that slip: those touched or pulled, or too fast for their drive.
 
         Returns how long a substep may be for them, at most `left`.
         """
         accuracy: Accuracy = self.accuracy
-        body: Body
         h: cython.double = left
         self.any_solved = False
         for body in self.bodies:
@@ -531,7 +475,6 @@ class Island:
             self.any_solved = self.any_solved or body.solved
         return h
 
-    @cython.cfunc
     def aim(self, h: cython.double) -> cython.void:
         """Set the velocities of all bodies for a substep of h seconds.
 
@@ -540,7 +483,6 @@ class Island:
         afar hits with its momentum alone, without its drive's force.
         """
         brief: cython.bint = h <= self.contact_step
-        body: Body
         for body in self.bodies:
             body.back.go_to(body)
             if body.solved:
@@ -550,13 +492,11 @@ class Island:
             body.holds = body.follows() and brief and body.since <= settings.LINGER
             predict(body, h, self.glide, self.thrust)
 
-    @cython.cfunc
     def glide_on(self, h: cython.double) -> cython.bint:
         """Move all bodies as they are aimed; return whether they touch nothing then.
 
         If they do they are back where they were, for the solver.
         """
-        body: Body
         for body in self.bodies:
             body.advance(h)
         self.measure()
@@ -570,13 +510,11 @@ class Island:
             self.solver.stale = True
         return True
 
-    @cython.cfunc
     def arrive(self, body: Body) -> cython.void:
         """Note that a body has moved in closed form."""
         body.slips = body.slips and body.is_robot and not body.limited and body.accelerates
         body.account_now()
 
-    @cython.cfunc
     def take(self, body: Body, h: cython.double) -> cython.void:
         """Take over how a body has moved in the solver's step of h s.
 
@@ -599,7 +537,6 @@ class Island:
             body.correct(h)
         self.arrive(body)
 
-    @cython.cfunc
     def strike(self, body: Body, h: cython.double) -> cython.void:
         """Let a blow change the velocity of a body in closed form when it came, within h s.
 
@@ -622,7 +559,6 @@ class Island:
 
     # -- without forces -----------------------------------------------------------------------
 
-    @cython.cfunc
     def pass_through(
         self, duration: cython.double, time: cython.double, stops: cython.bint
     ) -> cython.void:
@@ -632,10 +568,6 @@ class Island:
         the rest of it, and a prop for good.
         """
         elapsed: cython.double = 0.0
-        h: cython.double
-        left: cython.double
-        body: Body
-        pair: Pair
         self.measure()
         while elapsed < duration:
             for body in self.bodies:
@@ -655,11 +587,8 @@ class Island:
             elapsed = duration if h == left else elapsed + h
             self.note_touches(time + elapsed, h)
 
-    @cython.cfunc
     def stop_some(self) -> cython.void:
         """Stop each body that moves into something it touches."""
-        pair: Pair
-        body: Body
         for pair in self.pairs:
             if pair.gap > 0:
                 continue
@@ -677,12 +606,8 @@ class Island:
                 body.stopped = False
                 body.obey()
 
-    @cython.cfunc
     def note_touches(self, time: cython.double, h: cython.double) -> cython.void:
         """Note who touches whom after h s, without impulses."""
-        row: Row
-        pair: Pair
-        body: Body
         if self.any_touch:
             for body in self.bodies:
                 body.before_x, body.before_y, body.before_spin = body.vx, body.vy, body.spin
@@ -704,15 +629,12 @@ class Island:
 
     # -- contacts -----------------------------------------------------------------------------
 
-    @cython.cfunc
     def close(self, time: cython.double, h: cython.double) -> cython.void:
         """Add up the notes of a substep of h seconds, which ends at `time`."""
-        body: Body
         for body in self.bodies:
             if body.contacts:
                 close_touches(body, time, h)
 
-    @cython.cfunc
     def note_one(self, arbiter: Arbiter) -> cython.void:
         """Note the solver's data of one contact, if it has pushed or still touches."""
         first: cython.int = chipmunk.first_of(arbiter)
@@ -745,12 +667,10 @@ class Island:
             row.impulse_x, row.impulse_y = -impulse.x, -impulse.y
         note_row(a, b, row)
 
-    @cython.cfunc
     def stand(
         self, row: Row, arbiter: Arbiter, count: cython.int, second: cython.bint
     ) -> cython.void:
         """Put a row at the middle of a contact's points on one of its bodies."""
-        point: Vector
         if count > 0:
             point = chipmunk.point_of(arbiter, 0, second)
             row.x, row.y = point.x, point.y
@@ -759,33 +679,25 @@ class Island:
             row.x, row.y = (row.x + point.x) / 2, (row.y + point.y) / 2
 
 
-@cython.cfunc
 def touching(a: Body, b: cython.int) -> Pair | None:
     """Return a pair in which a body touches another or a wall now, by its measured gap."""
-    pair: Pair
-    found: object = a.first_touch
-    while found is not None:
-        pair = found
-        if pair.other == b:
-            return pair
-        found = pair.next_touch
-    return None
+    pair = a.first_touch
+    while pair is not None and pair.other != b:
+        pair = pair.next_touch
+    return pair
 
 
-@cython.cfunc
 def owner_of(a: Body, b: cython.int, x: cython.double, y: cython.double) -> cython.int:
     """Return the number of the obstacle that a body touches where, of a wall by its number.
 
     A wall may be of several obstacles.
     """
-    pair: Pair
     for pair in a.wall_pairs:
         if pair.other == b:
             return pair.wall.owner(x, y)
     return b
 
 
-@cython.cfunc
 def draw_together(pair: Pair, way: cython.double) -> cython.void:
     """Move the bodies of a pair towards each other; their common centre of mass stays.
 
@@ -806,7 +718,6 @@ def draw_together(pair: Pair, way: cython.double) -> cython.void:
     a.placed = True
 
 
-@cython.cfunc
 def opened(pair: Pair) -> cython.double:
     """Return by how much the gap of a pair has grown since its bodies' places were kept."""
     x: cython.double = pair.a.back.x - pair.a.x

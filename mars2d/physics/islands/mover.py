@@ -20,13 +20,12 @@ from mars2d.physics.islands.contacts import (
 from mars2d.physics.islands.floor import Glide
 from mars2d.physics.islands.island import Accuracy, Island
 from mars2d.physics.islands.neighbours import Neighbours
-from mars2d.physics.islands.pair import Pair, Wall
+from mars2d.physics.islands.pair import Wall
 from mars2d.physics.islands.solver import Solver, free_things_of, free_tie
 from mars2d.physics.islands.thrust import Thrust, predict
 from mars2d.physics.islands.tie import Tie
 
 
-@cython.final
 @cython.cclass
 class Mover:
     """All bodies of a world, by their numbers, with their possible contacts and their ties."""
@@ -37,7 +36,7 @@ class Mover:
     bodies: list[Body]
     ties: list[Tie]
     neighbours: Neighbours
-    taken: list[Any]  # contacts that were counted, but not written yet
+    taken: list[Touch]  # contacts that were counted, but not written yet
     solvers: list[Solver]
     spare: list[Solver]  # those that no island uses
     islands: list[Island]  # as many as there were at most
@@ -63,7 +62,6 @@ class Mover:
         self.thrust = Thrust()
         self.neighbours = Neighbours(bodies, walls, passing)
         self.taken, self.spare, self.solvers, self.islands = [], [], [], []
-        body: Body
         for body in bodies:
             body.slack = settings.SLACK
 
@@ -88,14 +86,11 @@ class Mover:
         """Do the same without forces: bodies that touch go through, or stop; see `Island`."""
         self.command(twist)
         self.begin(duration)
-        body: Body
         for body in self.bodies:
             body.near, body.home, body.way = False, body, body.speed * duration
         self.neighbours.refresh()
         self.neighbours.measure()
         self.join()
-        island: Island
-        k: cython.int
         self.make_islands()
         for k in range(self.found):
             island = self.islands[k]
@@ -105,8 +100,6 @@ class Mover:
     def command(self, twist: cython.Doubles) -> None:
         """Take the twists of all robots."""
         n: cython.int = len(twist) // 3
-        i: cython.int
-        body: Body
         for i in range(n):
             body = self.bodies[i]
             body.forward = twist[i]
@@ -116,8 +109,6 @@ class Mover:
     def ask(self, twist: cython.Doubles) -> None:
         """Take the twists of all robots at an instant, but of those that were stopped."""
         n: cython.int = len(twist) // 3
-        i: cython.int
-        body: Body
         for i in range(n):
             body = self.bodies[i]
             if body.forward != 0.0 or body.left != 0.0 or body.turning != 0.0:
@@ -126,10 +117,8 @@ class Mover:
                     body.obey()
                     body.account_now()
 
-    @cython.cfunc
     def begin(self, duration: cython.double) -> cython.void:
         """Find out who slips, and how fast each body may be."""
-        body: Body
         for body in self.bodies:
             body.done = body.kept = body.solved = body.touches = False
             body.start_x, body.start_y = body.x, body.y
@@ -156,13 +145,11 @@ class Mover:
                 push += (body.offset + abs(body.com)) * sway / body.moment
                 body.speed += push * duration
 
-    @cython.cfunc
     def find_islands(self, duration: cython.double) -> cython.void:
         """Mark who may touch something or is held, and find who is in one island.
 
         A body that is near may be pushed by the fastest of its island, and so get near to others.
         """
-        body: Body
         for body in self.bodies:
             body.near = body.initial.slips if body.kept else body.slips
             body.home = body
@@ -173,11 +160,8 @@ class Mover:
                 self.neighbours.measure()
             more = self.join()
 
-    @cython.cfunc
     def set_ways(self, duration: cython.double) -> cython.void:
         """Work out how far each body may go."""
-        body: Body
-        home: Body
         for body in self.bodies:
             body.fastest = 0.0
             body.way = body.speed * duration
@@ -192,18 +176,15 @@ class Mover:
                 home = root(body)
                 body.way = home.fastest + self.accuracy.max_overlap
 
-    @cython.cfunc
     def join(self) -> cython.bint:
         """Join those that may touch or hold each other; return whether anything is new."""
         more: cython.bint = False
-        pair: Pair
         for pair in self.neighbours.pairs:
             if pair.start_gap <= pair.a.way + pair.b.way:
                 if pair.a.near and pair.b.near and root(pair.a) is root(pair.b):
                     continue
                 join_homes(pair.a, pair.b)
                 more = True
-        tie: Tie
         for tie in self.ties:
             if tie.a.near and tie.b.near and root(tie.a) is root(tie.b):
                 continue
@@ -211,21 +192,15 @@ class Mover:
             if tie.may_hold():
                 join_homes(tie.a, tie.b)
                 more = True
-        body: Body
         for body in self.bodies:
             if not body.near and self.neighbours.at_wall(body):
                 body.near = True
                 more = True
         return more
 
-    @cython.cfunc
     def run_islands(self, duration: cython.double, time: cython.double) -> cython.bint:
         """Step all islands that were not yet; return whether none went further than it could."""
         good: cython.bint = True
-        island: Island
-        body: Body
-        home: Body
-        k: cython.int
         self.make_islands()
         for k in range(self.found):
             island = self.islands[k]
@@ -244,13 +219,11 @@ class Mover:
                     body.slack = 2 * body.slack
         return good
 
-    @cython.cfunc
     def is_done(self, island: Island) -> cython.bint:
         """Return whether an island has been stepped as it is.
 
         If it has grown since, all of it begins again.
         """
-        body: Body
         done: cython.int = 0
         for body in island.bodies:
             done += body.done
@@ -262,24 +235,16 @@ class Mover:
                     self.begin_again(body)
         return False
 
-    @cython.cfunc
     def begin_again(self, body: Body) -> cython.void:
         """Put a body back to where it was at the beginning; its solver forgets it."""
-        solver: Solver
         if body.solver is not None:
-            solver = body.solver
-            solver.leave(body)
+            body.solver.leave(body)
         body.begin_with(body.initial)
         body.done = False
         begin_touches_again(body)
 
-    @cython.cfunc
     def make_islands(self) -> cython.void:
         """Make the islands of those that are near."""
-        island: Island
-        pair: Pair
-        body: Body
-        home: Body
         self.found = 0
         for body in self.bodies:
             body.island = None
@@ -302,10 +267,8 @@ class Mover:
                         island.pairs.append(pair)
         self.add_pairs_of_bodies()
 
-    @cython.cfunc
     def next_island(self) -> Island:
         """Return an island without bodies."""
-        island: Island
         if self.found == len(self.islands):
             self.islands.append(
                 Island(
@@ -317,16 +280,12 @@ class Mover:
         self.found += 1
         return island
 
-    @cython.cfunc
     def add_pairs_of_bodies(self) -> cython.void:
         """Add pairs of bodies that may touch, and ties that may hold."""
-        pair: Pair
-        island: Island
         for pair in self.neighbours.pairs:
             if pair.start_gap <= pair.a.way + pair.b.way:
                 island = pair.a.island
                 island.pairs.append(pair)
-        tie: Tie
         for tie in self.ties:
             if tie.a.near and tie.b.near and tie.a.island is tie.b.island:
                 island = tie.a.island
@@ -334,10 +293,8 @@ class Mover:
 
     # -- who is free --------------------------------------------------------------------------
 
-    @cython.cfunc
     def carry_on(self, duration: cython.double, time: cython.double) -> cython.void:
         """Carry those that nothing can reach, and end the control step."""
-        body: Body
         self.neighbours.advance()
         for body in self.bodies:
             if not body.near:
@@ -345,22 +302,17 @@ class Mover:
                 self.carry(body, duration)
             body.account_now()
 
-    @cython.cfunc
     def carry(self, body: Body, duration: cython.double) -> cython.void:
         """Move a body that nothing can reach, in closed form."""
-        solver: Solver
         if body.solver is not None:
-            solver = body.solver
-            solver.leave(body)
+            body.solver.leave(body)
         body.slack, body.load = settings.SLACK, 1.0
         body.since = 1 << 20
         predict(body, duration, self.glide, self.thrust)
         body.advance(duration)
 
-    @cython.cfunc
     def clear_up(self) -> cython.void:
         """Empty the solvers that were not needed, and keep those that were."""
-        solver: Solver
         for solver in self.solvers:
             if not solver.used or not solver.bodies:
                 solver.empty()
@@ -374,7 +326,6 @@ class Mover:
     def write_states(self, states: cython.Doubles) -> None:
         """Write x, y, theta, x', y', theta' of all bodies into a row of numbers."""
         k: cython.int = 0
-        body: Body
         for body in self.bodies:
             states[k] = body.x
             states[k + 1] = body.y
@@ -392,7 +343,6 @@ class Mover:
     def write_contacts(self, numbers: cython.Doubles) -> None:
         """Write the contacts that were counted, fifteen numbers each; see `Touch.write`."""
         k: cython.int = 0
-        touch: Touch
         for touch in self.taken:
             touch.write(numbers, k)
             touch.begin()
@@ -401,9 +351,7 @@ class Mover:
 
     def write_velocities(self, velocities: cython.Doubles) -> None:
         """Write all x', then all y', then all theta', as they are at this instant."""
-        i: cython.int
         n: cython.int = len(self.bodies)
-        body: Body
         for i in range(n):
             body = self.bodies[i]
             velocities[i] = body.vx
@@ -412,8 +360,6 @@ class Mover:
 
     def take_effort(self, efforts: cython.Doubles) -> None:
         """Write the largest share of its bounds that each drive used since the last call."""
-        i: cython.int
-        body: Body
         for i in range(len(efforts)):
             body = self.bodies[i]
             efforts[i] = min(body.effort, 1.0)
@@ -421,10 +367,8 @@ class Mover:
 
     def write_work(self, work: cython.Doubles) -> None:
         """Write the work since the beginning, J; see `mars2d.record.energy.WORK`."""
-        k: cython.int
         for k in range(6):
             work[k] = 0.0
-        body: Body
         for body in self.bodies:
             work[0 if body.is_robot else 1] += body.by_holder
             work[2] += body.by_friction
@@ -440,7 +384,6 @@ class Mover:
 
     def let_go(self) -> None:
         """End all pulls."""
-        body: Body
         for body in self.bodies:
             body.pulled = False
 
@@ -469,38 +412,26 @@ class Mover:
         self.free()
         self.islands = []
         self.neighbours.begin()
-        memories: list[Any] = []
-        body: Body
-        for body in self.bodies:
-            # A comprehension would not know the class.
-            memories.append((body.memory(), lasting_touches(body)))  # noqa: PERF401
-        return memories
+        return [(body.memory(), lasting_touches(body)) for body in self.bodies]
 
     def remember(self, memories: list[Any]) -> None:
         """Go on as another mover of the same bodies does since it has rested."""
-        k: cython.int
-        body: Body
-        for k in range(len(self.bodies)):
-            body = self.bodies[k]
-            memory, touches = memories[k]
+        for body in self.bodies:
+            memory, touches = memories[body.number]
             body.remember(memory)
             touch_on(body, touches)
 
     def free(self) -> None:
         """Free the engine's objects, and the impulses that the solvers keep."""
-        solver: Solver
         for solver in self.solvers:
             solver.free()
-        tie: Tie
         for tie in self.ties:
             free_tie(tie)
-        body: Body
         for body in self.bodies:
             free_things_of(body)
         self.solvers, self.spare = [], []
 
 
-@cython.cfunc
 def root(body: Body) -> Body:
     """Return the body that stands for an island."""
     home: Body = body.home
@@ -510,7 +441,6 @@ def root(body: Body) -> Body:
     return home
 
 
-@cython.cfunc
 def join_homes(a: Body, b: Body) -> cython.void:
     """Join the islands of two bodies; the smaller number stands for both."""
     a.near = b.near = True

@@ -15,7 +15,6 @@ from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.pair import Pair, PiecePair, Wall
-from mars2d.physics.islands.piece import Piece
 
 FEW = 32
 """Up to this number of bodies, all pairs are listed once and for all."""
@@ -24,7 +23,6 @@ FEW_WALLS = 8
 """And up to this number of walls, those of each body."""
 
 
-@cython.final
 @cython.cclass
 class Neighbours:
     """The pairs of some bodies and walls that may touch soon."""
@@ -49,22 +47,17 @@ class Neighbours:
         self.wide = 3 + int((4.0 * len(bodies)) ** 0.5)
         self.begin()
 
-    @cython.cfunc
     def begin(self) -> cython.void:
         """List nothing yet, but all pairs if there are few."""
-        i: cython.int
-        a: Body
-        b: Body
         self.pairs, self.skin = [], -1.0
         for a in self.bodies:
             a.wall_gap, a.wall_skin = -1.0 if self.walls else 1e300, -1.0
         if len(self.bodies) <= FEW:
             self.skin = 1e300
-            for i, a in enumerate(self.bodies):
-                for b in self.bodies[i + 1 :]:
+            for a in self.bodies:
+                for b in self.bodies[a.number + 1 :]:
                     self.add(a, b)
 
-    @cython.cfunc
     def add(self, a: Body, b: Body) -> cython.void:
         """List a pair of bodies, a before b."""
         if self.passing and (a.number, b.number) in self.passing:
@@ -72,35 +65,27 @@ class Neighbours:
         if a.is_disc and b.is_disc:
             self.pairs.append(Pair(a, b, None))
             return
-        p: Piece
-        q: Piece
         for p in a.pieces:
             for q in b.pieces:
                 self.pairs.append(PiecePair(a, b, None, p, q))
 
-    @cython.cfunc
     def refresh(self) -> cython.bint:
         """List pairs again if a body may move farther than the skin; return whether that was so."""
         if self.skin >= 1e300:
             return False
-        body: Body
         for body in self.bodies:
             if body.moved + body.way > self.skin:
                 self.list_pairs()
                 return True
         return False
 
-    @cython.cfunc
     def measure(self) -> cython.void:
         """Measure how far apart the circles of all listed pairs are."""
-        pair: Pair
         for pair in self.pairs:
             pair.start_gap = pair.apart()
 
-    @cython.cfunc
     def advance(self) -> cython.void:
         """Note that bodies may have moved by their ways."""
-        body: Body
         for body in self.bodies:
             body.moved += body.way
             body.wall_gap -= body.way
@@ -108,7 +93,6 @@ class Neighbours:
 
     # -- walls --------------------------------------------------------------------------------
 
-    @cython.cfunc
     def at_wall(self, body: Body) -> cython.bint:
         """Return whether a body may touch a wall within its way."""
         if body.wall_gap > body.way:
@@ -116,19 +100,13 @@ class Neighbours:
         if body.way > body.wall_skin:
             self.list_walls(body)
         least: cython.double = body.wall_skin
-        pair: Pair
         for pair in body.wall_pairs:
             least = min(least, pair.apart())
         body.wall_gap = least
         return least <= body.way
 
-    @cython.cfunc
     def list_walls(self, body: Body) -> cython.void:
         """List the walls near a body, with a skin that lasts for many control steps."""
-        wall: Wall
-        piece: Piece
-        x: cython.double
-        y: cython.double
         body.wall_pairs = []
         body.wall_skin = 1e300
         if len(self.walls) > FEW_WALLS:
@@ -145,11 +123,9 @@ class Neighbours:
 
     # -- pairs --------------------------------------------------------------------------------
 
-    @cython.cfunc
     def list_pairs(self) -> cython.void:
         """List the pairs again, with a skin that lasts for several control steps."""
         furthest: cython.double = 0.0
-        body: Body
         for body in self.bodies:
             furthest = max(furthest, body.way)
             body.moved = 0.0
@@ -160,38 +136,30 @@ class Neighbours:
         for body in self.bodies:
             self.list_near(body, cutoff)
 
-    @cython.cfunc
     def column(self, x: cython.double) -> cython.int:
         """Return the column, or row, of cells that a coordinate is in."""
         at: cython.double = floor(x / self.size)
         at = at - self.wide * floor(at / self.wide)
         return int(at) if 0 < at < self.wide else 0
 
-    @cython.cfunc
     def fill_cells(self, size: cython.double) -> cython.void:
         """Sort the bodies into cells of this size, so that each cell's list ascends."""
         self.size = size
         self.first = [-1] * (self.wide * self.wide)
-        body: Body
         for body in self.bodies[::-1]:
             body.cell = self.column(body.start_y) * self.wide + self.column(body.start_x)
             body.next = self.first[body.cell]
             self.first[body.cell] = body.number
 
-    @cython.cfunc
     def list_near(self, a: Body, cutoff: cython.double) -> cython.void:
         """List a body's pairs with others of larger numbers."""
         wide: cython.int = self.wide
         row: cython.int = a.cell // wide
         column: cython.int = a.cell - row * wide
-        u: cython.int
-        v: cython.int
-        j: cython.int
-        b: Body
         for v in range(-1, 2):
             for u in range(-1, 2):
                 cell: cython.int = ((row + v + wide) % wide) * wide + (column + u + wide) % wide
-                j = self.first[cell]
+                j: cython.int = self.first[cell]
                 while j >= 0:
                     b = self.bodies[j]
                     if j > a.number and length(a.start_x - b.start_x, a.start_y - b.start_y) <= (

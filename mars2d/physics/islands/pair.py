@@ -12,12 +12,11 @@ from typing import Any
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
-from mars2d.physics.islands.flush import PARALLEL, join, lay
-from mars2d.physics.islands.piece import Corner, Edge, Piece
+from mars2d.physics.islands.flush import join, lay
+from mars2d.physics.islands.piece import Corner, Piece
 from mars2d.physics.islands.seams import Seams
 
 
-@cython.final
 @cython.cclass
 class Wall:
     """A straight wall: an edge of an obstacle, or edges of several in one line.
@@ -67,7 +66,6 @@ class Wall:
         sides = [(v, -u), (-v, u), (u, v), (-u, -v)]
         self.piece = Piece([(x1, y1), (x2, y2)], sides, 0.0)
 
-    @cython.cfunc
     def owner(self, x: cython.double, y: cython.double) -> cython.int:
         """Return the number of the obstacle that it is of at a point."""
         found: cython.int = self.owners[0][1]
@@ -80,7 +78,6 @@ class Wall:
                 found = number
         return found
 
-    @cython.cfunc
     def hidden(self, x: cython.double, y: cython.double, room: cython.double) -> cython.bint:
         """Return whether a wall that it ends at keeps a body within a circle from it."""
         for end_x, end_y, away_x, away_y, far in self.shades:
@@ -90,7 +87,6 @@ class Wall:
                 return True
         return False
 
-    @cython.cfunc
     def way(self, x: cython.double, y: cython.double) -> tuple[cython.double, cython.double]:
         """Return the shortest way from a point to it."""
         from_x: cython.double = x - self.x
@@ -118,7 +114,7 @@ class Pair:
     normal_y: cython.double
     walled_in: object  # the walls of the solver in which the wall is
     start_gap: cython.double  # between the circles at the beginning of the control step
-    next_touch: object  # the next pair that touches now with the same first body
+    next_touch: Pair | None  # the next pair that touches now with the same first body
     # where bodies that no forces act on touch
     point_x: cython.double
     point_y: cython.double
@@ -134,7 +130,6 @@ class Pair:
         else:
             self.wall, self.other, self.radii = wall, wall.other, a.radius
 
-    @cython.cfunc
     def apart(self) -> cython.double:
         """Return how far apart the circles were at the beginning of the control step."""
         x: cython.double = self.b.start_x - self.a.start_x
@@ -143,7 +138,6 @@ class Pair:
             x, y = self.wall.way(self.a.start_x, self.a.start_y)
         return length(x, y) - self.radii
 
-    @cython.cfunc
     def hidden(self) -> cython.bint:
         """Return whether another wall keeps the body from this one in the control step."""
         body: Body = self.a
@@ -152,7 +146,6 @@ class Pair:
             return False
         return wall.hidden(body.start_x, body.start_y, body.radius + body.way)
 
-    @cython.cfunc
     def parts(self) -> cython.bint:
         """Return whether its bodies move apart, but for what they turn."""
         apart: cython.double = -(self.a.vx * self.normal_x + self.a.vy * self.normal_y)
@@ -160,11 +153,8 @@ class Pair:
             apart += self.b.vx * self.normal_x + self.b.vy * self.normal_y
         return apart > 1e-9
 
-    @cython.cfunc
     def measure(self) -> cython.bint:
         """Measure the gap and the normal; return whether they touch."""
-        x: cython.double
-        y: cython.double
         if self.is_wall:
             x, y = self.wall.way(self.a.x, self.a.y)
         else:
@@ -175,7 +165,6 @@ class Pair:
         self.normal_x, self.normal_y = x * scale, y * scale
         return self.gap <= 0
 
-    @cython.cfunc
     def time_to_touch(self, h: cython.double, depth: cython.double) -> cython.double:
         """Return for how long they get no deeper than `depth`, or h if that is shorter.
 
@@ -196,18 +185,15 @@ class Pair:
             return h
         return min(h, time_to_close(room, closing, turn))
 
-    @cython.cfunc
     def turns(self) -> cython.double:
         """Return how fast the normal turns, rad/s: as the line between the middles of discs."""
         x: cython.double = self.b.vx - self.a.vx
         y: cython.double = self.b.vy - self.a.vy
         return 0.0 if self.is_wall else abs(x * self.normal_y - y * self.normal_x) / self.radii
 
-    @cython.cfunc
     def lay(self, room: cython.double) -> cython.void:
         """Note at corners which faces of two pieces go on in each other, but for this room."""
 
-    @cython.cfunc
     def meet(self) -> cython.void:
         """Find the point where they touch, and how fast each moves into the other there."""
         self.point_x = self.a.x + self.a.radius * self.normal_x
@@ -216,7 +202,6 @@ class Pair:
         self.into_a = -(self.b.vx * self.normal_x + self.b.vy * self.normal_y)
 
 
-@cython.cfunc
 def time_to_close(
     room: cython.double, closing: cython.double, turn: cython.double
 ) -> cython.double:
@@ -229,7 +214,6 @@ def time_to_close(
     return 2 * room / (total + 1e-12)
 
 
-@cython.final
 @cython.cclass
 class PiecePair(Pair):
     """Two convex pieces.
@@ -261,7 +245,6 @@ class PiecePair(Pair):
         self.p, self.q = p, q
         self.rounding = p.radius + q.radius
 
-    @cython.cfunc
     def measure(self) -> cython.bint:
         """Measure the gap and the normal; return whether they touch."""
         self.between_x, self.between_y = -self.a.x, -self.a.y
@@ -288,7 +271,6 @@ class PiecePair(Pair):
         self.gap = far - self.rounding
         return self.gap <= 0
 
-    @cython.cfunc
     def part(self, p: Piece, q: Piece, second: cython.bint) -> cython.void:
         """Find out whether an edge of one piece parts it better from another than those before.
 
@@ -296,8 +278,6 @@ class PiecePair(Pair):
         """
         x: cython.double = -self.between_x if second else self.between_x
         y: cython.double = -self.between_y if second else self.between_y
-        edge: Edge
-        corner: Corner
         for edge in p.edges:
             least: cython.double = 1e300
             for corner in q.corners:
@@ -312,7 +292,6 @@ class PiecePair(Pair):
                 self.parted, self.of_second = least, second
                 self.edge_x, self.edge_y, self.reach = edge.x, edge.y, edge.reach
 
-    @cython.cfunc
     def approach(self, p: Piece, q: Piece, sign: cython.double) -> cython.void:
         """Find the shortest way from an edge of one piece to a corner of another.
 
@@ -321,8 +300,6 @@ class PiecePair(Pair):
         x: cython.double = sign * self.between_x
         y: cython.double = sign * self.between_y
         last: Corner = p.corners[len(p.corners) - 1]
-        corner: Corner
-        other: Corner
         for corner in p.corners:
             edge_x: cython.double = corner.x - last.x
             edge_y: cython.double = corner.y - last.y
@@ -342,7 +319,6 @@ class PiecePair(Pair):
                     self.way_x, self.way_y = sign * way_x, sign * way_y
             last = corner
 
-    @cython.cfunc
     def time_to_touch(self, h: cython.double, depth: cython.double) -> cython.double:
         """Return for how long they get no deeper than `depth`."""
         turning: cython.double = self.time_along_edge(h, depth)
@@ -350,7 +326,6 @@ class PiecePair(Pair):
             return h
         return max(turning, self.time_along_normal(h, depth))
 
-    @cython.cfunc
     def time_along_edge(self, h: cython.double, depth: cython.double) -> cython.double:
         """Return the time, at most h, that follows from the edge which parts them now.
 
@@ -382,7 +357,6 @@ class PiecePair(Pair):
             bends = bends + other.acceleration
         nx: cython.double = self.edge_x
         ny: cython.double = self.edge_y
-        corner: Corner
         for corner in piece.corners:
             dx: cython.double = corner.x + x
             dy: cython.double = corner.y + y
@@ -397,7 +371,6 @@ class PiecePair(Pair):
                 h = min(h, time_to_close(room, closing, turn))
         return h
 
-    @cython.cfunc
     def time_along_normal(self, h: cython.double, depth: cython.double) -> cython.double:
         """Return the time, at most h, that follows from the present normal.
 
@@ -410,13 +383,8 @@ class PiecePair(Pair):
         )
         nx: cython.double = self.normal_x
         ny: cython.double = self.normal_y
-        nearest: cython.double = -self.q.front(-nx, -ny) - self.p.front(nx, ny)
-        if self.clear(h, base + depth) and base + nearest + depth >= floor:
-            return h
         a: Body = self.a
         b: Body = self.b
-        corner: Corner
-        other: Corner
         for corner in self.p.corners:
             place: cython.double = nx * corner.x + ny * corner.y
             speed: cython.double = nx * a.vx + ny * a.vy + a.spin * (ny * corner.x - nx * corner.y)
@@ -435,44 +403,16 @@ class PiecePair(Pair):
                     h = min(h, time_to_close(room, closing, turns))
         return h
 
-    @cython.cfunc
-    def clear(self, h: cython.double, room: cython.double) -> cython.bint:
-        """Return whether no corner of one comes nearer than that to one of the other within h s."""
-        a: Body = self.a
-        b: Body = self.b
-        nx: cython.double = self.normal_x
-        ny: cython.double = self.normal_y
-        half: cython.double = 0.5 * h * h
-        front: cython.double = -1e300
-        back: cython.double = 1e300
-        corner: Corner
-        for corner in self.p.corners:
-            speed: cython.double = nx * a.vx + ny * a.vy + a.spin * (ny * corner.x - nx * corner.y)
-            turn: cython.double = a.acceleration + a.spin * a.spin * corner.lever
-            front = max(front, nx * corner.x + ny * corner.y + speed * h + turn * half)
-        for corner in self.q.corners:
-            place: cython.double = nx * corner.x + ny * corner.y
-            if not self.is_wall:
-                speed = nx * b.vx + ny * b.vy + b.spin * (ny * corner.x - nx * corner.y)
-                turn = b.acceleration + b.spin * b.spin * corner.lever
-                place = place + speed * h - turn * half
-            back = min(back, place)
-        return back - front + room >= 0.0
-
-    @cython.cfunc
     def turns(self) -> cython.double:
         """Return how fast the normal turns, rad/s: with the body whose edge parts them."""
         if self.is_wall and self.of_second:
             return 0.0
         return abs(self.b.spin if self.of_second else self.a.spin)
 
-    @cython.cfunc
     def lay(self, room: cython.double) -> cython.void:
         """Note at corners which faces of two pieces go on in each other, but for this room."""
         x: cython.double = self.between_x
         y: cython.double = self.between_y
-        if not self.meet_at_corners(2 * room):
-            return
         if lay(self.p, self.q, x, y, self.b.number, room):
             join(self.p.shape)
             self.a.laid = True
@@ -480,26 +420,6 @@ class PiecePair(Pair):
             join(self.q.shape)
             self.b.laid = True
 
-    @cython.cfunc
-    def meet_at_corners(self, room: cython.double) -> cython.bint:
-        """Return whether edges lie against each other, and corners by corners."""
-        edge: Edge
-        corner: Corner
-        other: Corner
-        opposed: cython.bint = False
-        for edge in self.p.edges if self.of_second else self.q.edges:
-            opposed = opposed or edge.x * self.edge_x + edge.y * self.edge_y < -PARALLEL
-        if not opposed:
-            return False
-        for corner in self.p.corners:
-            x: cython.double = corner.x - self.between_x
-            y: cython.double = corner.y - self.between_y
-            for other in self.q.corners:
-                if abs(other.x - x) < room and abs(other.y - y) < room:
-                    return True
-        return False
-
-    @cython.cfunc
     def meet(self) -> cython.void:
         """Find the middle of their common face, and how fast each moves into the other there.
 
@@ -509,11 +429,8 @@ class PiecePair(Pair):
         ny: cython.double = self.normal_y
         front: cython.double = self.p.front(nx, ny)
         back: cython.double = -self.q.front(-nx, -ny)
-        corner: Corner
         low: cython.double = 1e300
         high: cython.double = -1e300
-        along: cython.double
-        speed: cython.double
         self.into_b = self.into_a = -1e300
         for corner in self.p.corners:
             if nx * corner.x + ny * corner.y < front - 1e-3:

@@ -9,7 +9,6 @@ from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.library import Handle
 
 
-@cython.final
 @cython.cclass
 class Corner:
     """A corner of a piece: in the frame of its body, and from there, turned as the body is."""
@@ -30,7 +29,6 @@ class Corner:
         self.lever = length(x, y)
 
 
-@cython.final
 @cython.cclass
 class Edge:
     """A direction in which a piece may be parted from another, and an edge across it.
@@ -51,7 +49,6 @@ class Edge:
         self.reach = reach
 
 
-@cython.final
 @cython.cclass
 class Piece:
     """A convex piece of a body or wall: the hull of its corners, enlarged by a radius."""
@@ -68,20 +65,15 @@ class Piece:
         self.edges = [Edge(u, v, max([u * x + v * y for x, y in corners])) for u, v in directions]
         self.radius = radius
 
-    @cython.cfunc
     def front(self, x: cython.double, y: cython.double) -> cython.double:
         """Return how far its corners reach from the body's pose in a direction, metres."""
         front: cython.double = -1e300
-        corner: Corner
         for corner in self.corners:
             front = max(front, x * corner.x + y * corner.y)
         return front
 
-    @cython.cfunc
     def turn(self, c: cython.double, s: cython.double) -> cython.void:
         """Turn it by an angle of this cosine and sine from its body's frame."""
-        corner: Corner
-        edge: Edge
         for corner in self.corners:
             corner.x = c * corner.local_x - s * corner.local_y
             corner.y = s * corner.local_x + c * corner.local_y

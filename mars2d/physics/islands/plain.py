@@ -9,5 +9,5 @@ from mars2d.physics.islands.pair import Wall
 from mars2d.physics.islands.piece import Piece
 from mars2d.physics.islands.rays import Caster, Things
 from mars2d.physics.islands.seams import Seams
-from mars2d.physics.islands.surfaces import Surface, Surfaces
+from mars2d.physics.islands.surfaces import Surfaces
 from mars2d.physics.islands.tie import Tie

@@ -19,7 +19,6 @@ from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import cosine_sine, length
 
 
-@cython.final
 @cython.cclass
 class Things:
     """What rays may hit: convex rings of edges, counter-clockwise, and discs.
@@ -64,7 +63,6 @@ class Things:
 
     def place(self, states: cython.Doubles) -> None:
         """Move all to where their bodies are: six numbers each, first x, y [m], theta [rad]."""
-        k: cython.int
         at: cython.int = 0
         c, s = cosine_sine(states[2])
         for k in range(len(self.bodies)):
@@ -79,16 +77,13 @@ class Things:
         """Return the x of a thing."""
         return self.x[thing]
 
-    @cython.cfunc
     def from_x(self, x: cython.double) -> cython.int:
         """Return how many of the things in order have a smaller x."""
         low: cython.int = 0
         high: cython.int = len(self.order)
-        middle: cython.int
-        thing: cython.int
         while low < high:
             middle = (low + high) // 2
-            thing = self.order[middle]
+            thing: cython.int = self.order[middle]
             if self.x[thing] < x:
                 low = middle + 1
             else:
@@ -96,7 +91,6 @@ class Things:
         return low
 
 
-@cython.final
 @cython.cclass
 class Caster:
     """Casts fans of rays at things, fan by fan."""
@@ -147,8 +141,6 @@ class Caster:
         self.lengths, self.owners = found
         self.count, self.reach = len(cosines), reach
         m: cython.int = len(ignore)
-        i: cython.int
-        k: cython.int
         for i in range(m):
             self.x, self.y, self.at = poses[i], poses[m + i], i * self.count
             self.c, self.s = cosine_sine(poses[2 * m + i])
@@ -174,7 +166,6 @@ class Caster:
         self.angle, self.way_x, self.way_y = memory
         self.lengths, self.owners = found
         self.x, self.y, self.ignore, self.count = x, y, ignore, 1
-        k: cython.int
         many: cython.int = len(points) // 2
         for k in range(many):
             dx: cython.double = points[k] - self.x
@@ -196,23 +187,18 @@ class Caster:
         self.look()
         return self.nearest
 
-    @cython.cfunc
     def look(self) -> cython.void:
         """Cast the fan, or find the nearest points."""
-        things: Things
-        thing: cython.int
-        k: cython.int
         for things in self.groups:
             for k in range(things.wide):
                 self.meet(things, k)
             far: cython.double = (1.0 + 1e-9) * (self.reach + things.largest)
             for k in range(things.from_x(self.x - far), len(things.order)):
-                thing = things.order[k]
+                thing: cython.int = things.order[k]
                 if things.x[thing] > self.x + far:
                     break
                 self.meet(things, thing)
 
-    @cython.cfunc
     def meet(self, things: Things, thing: cython.int) -> cython.void:
         """Let the fan's rays meet a thing."""
         x: cython.double = things.x[thing] - self.x
@@ -234,7 +220,6 @@ class Caster:
         else:
             self.meet_ring(things, int(things.first[thing]), int(things.edges[thing]), owner)
 
-    @cython.cfunc
     def approach(self, things: Things, thing: cython.int) -> cython.void:
         """Find the nearest point of a thing.
 
@@ -242,7 +227,6 @@ class Caster:
         """
         x: cython.double = things.x[thing] - self.x
         y: cython.double = things.y[thing] - self.y
-        far: cython.double
         if things.edges[thing] == 0.0:
             far = length(x, y)
             share: cython.double = things.radius[thing] / far if far > 0.0 else 0.0
@@ -271,13 +255,11 @@ class Caster:
         if things.solid:
             self.note(-least if inside else least, x, y)
 
-    @cython.cfunc
     def note(self, far: cython.double, x: cython.double, y: cython.double) -> cython.void:
         """Keep a point that is near enough."""
         if far < self.reach:
             self.nearest.append((far, x, y))
 
-    @cython.cfunc
     def meet_disc(
         self, x: cython.double, y: cython.double, radius: cython.double, owner: cython.int
     ) -> cython.void:
@@ -294,7 +276,6 @@ class Caster:
         if low < 2e-9:
             low, high = low + 4.0, high + 4.0
         first: cython.int = self.below(low - 2e-9)
-        k: cython.int
         for k in range(first, self.end_of(first, high + 2e-9)):
             ray: cython.int = k % self.count
             c: cython.double = self.way_x[ray]
@@ -304,7 +285,6 @@ class Caster:
             if inner >= 0.0:
                 self.end(ray, max((c * x + s * y) - sqrt(inner), 0.0), owner)
 
-    @cython.cfunc
     def meet_ring(
         self, things: Things, first: cython.int, edges: cython.int, owner: cython.int
     ) -> cython.void:
@@ -312,7 +292,6 @@ class Caster:
 
         From outside, some edges show their outer sides and hide the others; from inside, none does.
         """
-        edge: cython.int
         inside: cython.bint = True
         for edge in range(first, first + edges):
             if self.area(things, edge) < 0.0:
@@ -326,14 +305,12 @@ class Caster:
             if inside or area < 0.0:
                 self.meet_edge(things, edge, area, owner)
 
-    @cython.cfunc
     def area(self, things: Things, edge: cython.int) -> cython.double:
         """Return the signed area of the parallelogram spanned by an edge and the start, m^2."""
         ex: cython.double = things.bx[edge] - things.ax[edge]
         ey: cython.double = things.by[edge] - things.ay[edge]
         return (things.ax[edge] - self.x) * ey - (things.ay[edge] - self.y) * ex
 
-    @cython.cfunc
     def meet_edge(
         self, things: Things, edge: cython.int, area: cython.double, owner: cython.int
     ) -> cython.void:
@@ -363,7 +340,6 @@ class Caster:
         if low < 2e-9:
             low, high = low + 4.0, high + 4.0
         first: cython.int = self.below(low - 2e-9)
-        k: cython.int
         for k in range(first, self.end_of(first, high + 2e-9)):
             ray: cython.int = k % self.count
             c: cython.double = self.way_x[ray]
@@ -377,7 +353,6 @@ class Caster:
                 # The ray (c, s) t meets the line a + e u at t = (a x e) / ((c, s) x e).
                 self.end(ray, area / (c * ey - s * ex), owner)
 
-    @cython.cfunc
     def meet_closely(
         self,
         ray: cython.int,
@@ -404,7 +379,6 @@ class Caster:
         at_a: cython.bint = abs(beside_a) <= aimed(length(ax, ay))
         at_b: cython.bint = abs(beside_b) <= aimed(length(bx, by))
         between: cython.bint = min(beside_a, beside_b) <= 0.0 <= max(beside_a, beside_b)
-        distance: cython.double
         if not (at_a or at_b or between):
             return
         if not grazing:
@@ -422,7 +396,6 @@ class Caster:
 
     # -- rays ---------------------------------------------------------------------------------
 
-    @cython.cfunc
     def diamond(self, x: cython.double, y: cython.double) -> cython.double:
         """Return the diamond angle of a vector from the fan's heading."""
         ahead: cython.double = self.c * x + self.s * y
@@ -435,7 +408,6 @@ class Caster:
             return 2.0 - way
         return way if way >= 0.0 else 4.0 + way
 
-    @cython.cfunc
     def below(self, angle: cython.double) -> cython.int:
         """Return how many rays come before a diamond angle, in several turns from 0 on."""
         turns: cython.int = 0
@@ -443,7 +415,6 @@ class Caster:
             angle, turns = angle - 4.0, turns + self.count
         low: cython.int = 0
         high: cython.int = self.count
-        middle: cython.int
         while low < high:
             middle = (low + high) // 2
             if self.angle[middle] < angle:
@@ -452,27 +423,22 @@ class Caster:
                 high = middle
         return low + turns
 
-    @cython.cfunc
     def end_of(self, first: cython.int, angle: cython.double) -> cython.int:
         """Return the ray after the last one up to a diamond angle, at most a turn on."""
         return min(self.below(angle), first + self.count)
 
-    @cython.cfunc
     def end(self, ray: cython.int, distance: cython.double, owner: cython.int) -> cython.void:
         """Let a ray end after a distance, if it does not end before."""
         k: cython.int = self.at + ray
         if distance < self.lengths[k] or (distance == self.lengths[k] and owner < self.owners[k]):
             self.lengths[k], self.owners[k] = distance, owner
 
-    @cython.cfunc
     def end_all(self, owner: cython.int) -> cython.void:
         """Let all rays of the fan end where they start."""
-        k: cython.int
         for k in range(self.count):
             self.end(k, 0.0, owner)
 
 
-@cython.cfunc
 def aimed(apart: cython.double) -> cython.double:
     """Return the distance within which a ray counts as aimed at a point `apart` away, metres."""
     return min(1e-13 * (1.0 + apart), 5e-10 * apart)

@@ -26,7 +26,6 @@ BULGES = 1.0
 """What there is at an end of a wall on one side: nothing, a corner that bulges; 2 is any other."""
 
 
-@cython.final
 @cython.cclass
 class Seams:
     """What contacts with a wall must know of its ends, and one of these that is looked at.
@@ -57,7 +56,6 @@ class Seams:
         self.x, self.y, self.ux, self.uy, self.far, self.reach = numbers[:6]
         self.met = numbers[6:]
 
-    @cython.cfunc
     def correct(self, arbiter: Arbiter, is_first: cython.bint) -> cython.void:
         """Look at a contact before it is solved. is_first: whether the wall is its first shape."""
         shape: Handle = chipmunk.shape_of(arbiter, True)
@@ -103,13 +101,11 @@ class Seams:
             return
         self.put_out(arbiter, shape, 3 if right else 0, fx, fy)
 
-    @cython.cfunc
     def pass_round(self, shape: Handle) -> cython.void:
         """Find the middle of a polygon as seen from the start, and where the line is in it."""
         corner: Vector = chipmunk.corner_of(shape, self.corners - 1)
         above: cython.double = (corner.y - self.y) * self.ux - (corner.x - self.x) * self.uy
         at: cython.double = (corner.x - self.x) * self.ux + (corner.y - self.y) * self.uy
-        k: cython.int
         self.dx = self.dy = 0.0
         for k in range(self.corners):
             before: cython.double = above
@@ -123,7 +119,6 @@ class Seams:
                 crossed: cython.double = last_at + before / (before - above) * (at - last_at)
                 self.low, self.high = min(self.low, crossed), max(self.high, crossed)
 
-    @cython.cfunc
     def holds(self, end: cython.int, turn: cython.double, own: cython.double) -> cython.bint:
         """Return whether the body lies between the wall and its neighbour on one side of an end.
 
@@ -136,7 +131,6 @@ class Seams:
         before: cython.bint = turn * other >= 0.0
         return past or before if self.met[end] == BULGES else past and before
 
-    @cython.cfunc
     def put_out(
         self,
         arbiter: Arbiter,
@@ -157,7 +151,6 @@ class Seams:
         deepest: cython.double = -1.0
         px: cython.double = 0.0
         py: cython.double = 0.0
-        k: cython.int
         for k in range(self.corners):
             corner: Vector = chipmunk.corner_of(shape, k)
             at: cython.double = (corner.x - self.x) * self.ux + (corner.y - self.y) * self.uy
@@ -171,14 +164,12 @@ class Seams:
         chipmunk.put_point(arbiter, px + deepest * fx, py + deepest * fy, px, py)
 
 
-@cython.cfunc
 def sew(segment: Handle, seams: Seams) -> cython.void:
     """Let contacts with a wall be corrected at its seams."""
     chipmunk.set_data(segment, library.address_of(seams))
     chipmunk.set_type(segment, library.SEWN)
 
 
-@cython.cfunc
 @library.callback("void(cpArbiter *, cpSpace *, void *)")
 def correct_contact(arbiter: Arbiter, _space: Handle, _data: Handle) -> cython.void:
     """Let the seams of a wall correct a contact with it before it is solved."""

@@ -1,7 +1,7 @@
-"""The names of C types and decorators, which mean nothing to Python.
+"""The names of C types, which mean nothing to Python, and the decorator of classes.
 
 The modules of this package import it as ``cython``. Where there is a compiler, `build` puts Cython
-in its place: then a `double` is C's, a `cclass` is a struct, and a `cfunc` is a C function.
+in its place: then a `double` is C's, and a `cclass` is a struct.
 """
 
 from __future__ import annotations
@@ -31,13 +31,3 @@ def cclass(kind: type[T]) -> type[T]:
     for name, declared in kind.__annotations__.items():
         setattr(kind, name, zeros.get(declared))
     return kind
-
-
-def final(kind: type[T]) -> type[T]:
-    """Return the class as it is."""
-    return kind
-
-
-def cfunc(function: T) -> T:
-    """Return the function as it is."""
-    return function

@@ -8,11 +8,11 @@ from mars2d.physics.islands import chipmunk, library, settings
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import cosine_sine, decay_base, exponential, length
 from mars2d.physics.islands.body import Body
+from mars2d.physics.islands.chipmunk import Held
 from mars2d.physics.islands.floor import hold
 from mars2d.physics.islands.flush import Flush, join, lay, show, straighten_contact
 from mars2d.physics.islands.library import Arbiters, Handle, Vector
 from mars2d.physics.islands.pair import Wall
-from mars2d.physics.islands.piece import Piece
 from mars2d.physics.islands.seams import correct_contact, sew
 from mars2d.physics.islands.surfaces import settle_contact
 from mars2d.physics.islands.tie import Tie
@@ -23,16 +23,6 @@ STILL = 1e-6
 """The speed up to which a body is at rest, m/s."""
 
 
-@cython.final
-@cython.cclass
-class Held:
-    """A thing of the engine that Python keeps: a shape, or a joint."""
-
-    handle: Handle
-    ground: Handle
-
-
-@cython.final
 @cython.cclass
 class Solver:
     """A space of the engine: its bodies, the walls near them, and their joints."""
@@ -76,12 +66,10 @@ class Solver:
 
     # -- who is in it -------------------------------------------------------------------------
 
-    @cython.cfunc
     def enter(self, body: Body) -> cython.void:
         """Put a body in."""
         if not body.made:
             self.make(body)
-        shape: Held
         chipmunk.add_body(self.space, body.handle)
         for shape in body.shapes:
             chipmunk.add_shape(self.space, shape.handle)
@@ -92,15 +80,12 @@ class Solver:
             self.hold_by(body, chipmunk.ground_of(self.space))
             self.engage(body)
 
-    @cython.cfunc
     def make(self, body: Body) -> cython.void:
         """Make a body, its shapes, and the joints that hold it."""
         body.made = True
         body.handle = chipmunk.new_body(body.mass, body.moment, body.number)
         if body.com != 0.0:
             chipmunk.weight_at(body.handle, body.com)
-        piece: Piece
-        other: Piece
         for piece in body.pieces:
             points = [(corner.local_x, corner.local_y) for corner in piece.corners]
             shape = Held()
@@ -119,7 +104,6 @@ class Solver:
             body.control = chipmunk.new_control()
             self.hold_by(body, body.control)
 
-    @cython.cfunc
     def hold_by(self, body: Body, holder: Handle) -> cython.void:
         """Make the joints of a body start again: they make it move as its holder does."""
         if body.wheeled:  # grooves are free along
@@ -146,7 +130,6 @@ class Solver:
         chipmunk.set_max_force(body.pivot, body.bound if body.is_robot else body.allowed)
         chipmunk.set_max_force(body.gear, body.torque if body.is_robot else body.twist_allowed)
 
-    @cython.cfunc
     def engage(self, body: Body) -> cython.void:
         """Let its joints act."""
         chipmunk.add_joint(self.space, body.pivot)
@@ -155,7 +138,6 @@ class Solver:
         chipmunk.add_joint(self.space, body.gear)
         body.engaged = True
 
-    @cython.cfunc
     def disengage(self, body: Body) -> cython.void:
         """Take its joints out."""
         chipmunk.remove_joint(self.space, body.pivot)
@@ -164,37 +146,30 @@ class Solver:
         chipmunk.remove_joint(self.space, body.gear)
         body.engaged = False
 
-    @cython.cfunc
     def leave(self, body: Body) -> cython.void:
         """Remove a body with its ties."""
-        tie: Tie
         for tie in self.ties[:]:
             if tie.a is body or tie.b is body:
                 self.remove_parts(tie)
                 self.ties.remove(tie)
         if body.engaged:
             self.disengage(body)
-        shape: Held
         for shape in body.shapes:
             chipmunk.remove_shape(self.space, shape.handle)
         chipmunk.remove_body(self.space, body.handle)
         body.solver = None
         self.bodies.remove(body)
 
-    @cython.cfunc
     def empty(self) -> cython.void:
         """Take all bodies out."""
-        body: Body
         for body in self.bodies[::-1]:
             self.leave(body)
         if len(self.walls) > 8:
             self.take_walls_down()
         self.last_step, self.stale = 1e300, False
 
-    @cython.cfunc
     def take_walls_down(self) -> cython.void:
         """Take all walls out."""
-        held: Held
         for held in self.walls.values():
             chipmunk.remove_shape(self.space, held.handle)
             chipmunk.remove_body(self.space, held.ground)
@@ -202,7 +177,6 @@ class Solver:
             chipmunk.free_body(held.ground)
         self.walls = {}
 
-    @cython.cfunc
     def wall_off(self, wall: Wall) -> cython.void:
         """Put a wall in."""
         if wall.number in self.walls:
@@ -219,7 +193,6 @@ class Solver:
 
     # -- joints -------------------------------------------------------------------------------
 
-    @cython.cfunc
     def tie(self, tie: Tie) -> cython.void:
         """Put a joint in."""
         if tie in self.ties:
@@ -228,18 +201,15 @@ class Solver:
         self.make_parts(tie)
         self.add_parts(tie)
 
-    @cython.cfunc
     def make_parts(self, tie: Tie) -> cython.void:
         """Make the parts of a joint start again."""
         if self.joint_bias == 0.0 and self.last_step < 1e300:
             self.joint_bias = decay_base(
                 settings.JOINT_BIAS_RATE, self.joint_bias_base, self.last_step
             )
-        k: cython.int
         a: Handle = tie.a.handle
         b: Handle = chipmunk.ground_of(self.space) if tie.to_world else tie.b.handle
         ends = ((tie.anchor_ax, tie.anchor_ay), (tie.anchor_bx, tie.anchor_by))
-        part: Held
         for k in range(len(tie.parts)):
             kind, turned, numbers = tie.parts[k]
             if len(tie.joints) <= k:
@@ -257,25 +227,18 @@ class Solver:
             if tie.is_rope and k == 0:
                 chipmunk.set_max_bias(part.handle, 0.0)
 
-    @cython.cfunc
     def add_parts(self, tie: Tie) -> cython.void:
         """Put the parts of a joint in."""
-        part: Held
         for part in tie.joints:
             chipmunk.add_joint(self.space, part.handle)
 
-    @cython.cfunc
     def remove_parts(self, tie: Tie) -> cython.void:
         """Take the parts of a joint out."""
-        part: Held
         for part in tie.joints:
             chipmunk.remove_joint(self.space, part.handle)
 
-    @cython.cfunc
     def pull_of(self, tie: Tie) -> cython.double:
         """Return the impulse of a joint along its line in the last step, N s."""
-        k: cython.int
-        part: Held
         most: cython.double = 0.0
         for k in range(len(tie.parts)):
             if tie.parts[k][0] != library.ROTARY_LIMIT and tie.parts[k][0] != library.ROTARY_SPRING:
@@ -283,7 +246,6 @@ class Solver:
                 most = max(most, chipmunk.used_of(part.handle))
         return most
 
-    @cython.cfunc
     def rebound(self, tie: Tie, h: cython.double) -> cython.void:
         """Let a limit that a joint reaches within h s turn it back at its restitution.
 
@@ -300,8 +262,6 @@ class Solver:
             least += beyond
         else:
             tie.hits = False
-        k: cython.int
-        part: Held
         for k in range(len(tie.parts)):
             if tie.parts[k][0] == library.ROTARY_LIMIT:
                 part = tie.joints[k]
@@ -310,7 +270,6 @@ class Solver:
 
     # -- a step -------------------------------------------------------------------------------
 
-    @cython.cfunc
     def forget(self, h: cython.double) -> cython.void:
         """Scale the remembered impulses to a step of h seconds.
 
@@ -322,7 +281,6 @@ class Solver:
         """
         ratio: cython.double = 0.0 if self.stale else h / self.last_step
         self.stale = False
-        k: cython.int
         if h != self.last_step or self.hurries != self.hurried:
             self.last_step, self.hurried, self.joint_bias = h, self.hurries, 0.0
             if self.hurries:
@@ -332,22 +290,18 @@ class Solver:
         if ratio != 1.0:
             for k in range(self.find_contacts()):
                 chipmunk.scale(self.arbiters.at(k), ratio)
-            tie: Tie
             for tie in self.ties:
                 self.remove_parts(tie)
                 self.make_parts(tie)
                 self.add_parts(tie)
 
-    @cython.cfunc
     def find_contacts(self) -> cython.int:
         """Find all contacts that the engine knows, and return how many there are."""
-        body: Body
         self.arbiters.clear()
         for body in self.bodies:
             self.arbiters.add_those_of(body.handle)
         return self.arbiters.count()
 
-    @cython.cfunc
     def renew(self, body: Body) -> cython.void:
         """Let the joints of a body start again."""
         self.disengage(body)
@@ -357,13 +311,11 @@ class Solver:
             self.hold_by(body, chipmunk.ground_of(self.space))
         self.engage(body)
 
-    @cython.cfunc
     def relax(self) -> cython.void:
         """Let bodies that rest press each other no longer: rigid ones keep no tension.
 
         They do not if any moves, or is told or pulled or tied to.
         """
-        body: Body
         for body in self.bodies:
             if self.ties or body.pulled or body.is_told() or body.top_speed() > STILL:
                 return
@@ -372,13 +324,11 @@ class Solver:
             if body.engaged and (self.used_by(body) > 0.0 or chipmunk.used_of(body.gear) > 0.0):
                 self.renew(body)
 
-    @cython.cfunc
     def go(self, h: cython.double) -> cython.void:
         """Step by h seconds, with all bodies moving as they are aimed, and read the result.
 
         `settle` and `share_out` do the rest.
         """
-        body: Body
         solved: cython.bint = False
         for body in self.bodies:
             solved = solved or body.solved
@@ -394,7 +344,6 @@ class Solver:
                     self.renew(body)
         self.relax()
         self.forget(h)
-        tie: Tie
         for tie in self.ties:
             if tie.is_rope:  # what one that is too long draws in fast would go on, and slacken it
                 rope: Held = tie.joints[0]
@@ -426,7 +375,6 @@ class Solver:
                 share = chipmunk.used_of(body.gear) / (body.torque * h)
                 body.effort = max(body.effort, share)
 
-    @cython.cfunc
     def take_reaction(self, body: Body) -> cython.void:
         """Find the impulse on a body of its drive, or of the floor under it."""
         reaction: Vector = chipmunk.reaction_of(
@@ -444,18 +392,15 @@ class Solver:
         turn: cython.double = chipmunk.twist_of(body.gear)
         body.reaction_turn = turn - body.com_x * body.reaction_y + body.com_y * body.reaction_x
 
-    @cython.cfunc
     def used_by(self, body: Body) -> cython.double:
         """Return how large the impulse on a body of its drive, or of the floor, was, N s."""
         used: cython.double = chipmunk.used_of(body.pivot)
         return length(used, chipmunk.used_of(body.side)) if body.wheeled else used
 
-    @cython.cfunc
     def lag(self, h: cython.double) -> cython.double:
         """Return how long after a step of h s begins joints find bodies where they are."""
         return h / 2 if self.ties else h
 
-    @cython.cfunc
     def measure_traction(self, body: Body, h: cython.double) -> cython.void:
         """Find out what the wheels of a robot have borne in a step of h s, and what they could."""
         angle: cython.double = body.back.angle + self.lag(h) * body.back.spin
@@ -465,7 +410,6 @@ class Solver:
         body.traction_across = (c * body.reaction_y - s * body.reaction_x) / h
         body.set_bound(body.reaction_x, body.reaction_y, angle, body.vx, body.vy)
 
-    @cython.cfunc
     def share_out(self, body: Body, h: cython.double, shift: cython.double) -> cython.void:
         """Take over a body's motion, and the change of its kinetic energy in the step.
 
@@ -508,7 +452,6 @@ class Solver:
         else:  # a rounding error
             body.by_push += gained
 
-    @cython.cfunc
     def prepare(self, body: Body, h: cython.double) -> cython.void:
         """Tell the engine of a body all that it needs for a step of h seconds."""
         vx: cython.double = body.vx
@@ -545,7 +488,6 @@ class Solver:
         body.before_x, body.before_y, body.before_spin = vx, vy, spin
         body.account(vx, vy, spin)
 
-    @cython.cfunc
     def set_off(
         self,
         body: Body,
@@ -579,7 +521,6 @@ class Solver:
             x, y = x - body.com_x, y - body.com_y
         chipmunk.put(body.handle, x, y, angle)
 
-    @cython.cfunc
     def limit_force(self, body: Body, h: cython.double) -> cython.void:
         """Bound the force of a robot's drive in the direction in which it will push.
 
@@ -594,7 +535,6 @@ class Solver:
             body.set_bound(x, y, body.angle, body.vx, body.vy)
         chipmunk.set_max_force(body.pivot, body.bound)
 
-    @cython.cfunc
     def place_wheels(
         self, body: Body, vx: cython.double, vy: cython.double, h: cython.double
     ) -> cython.void:
@@ -632,7 +572,6 @@ class Solver:
         chipmunk.set_max_force(body.pivot, body.bound_ahead)
         chipmunk.set_max_force(body.side, body.bound_across)
 
-    @cython.cfunc
     def brake(self, body: Body, h: cython.double) -> cython.void:
         """Let the floor hold a prop that slips; a prop at rest is free until it is hit."""
         force: cython.double = body.allowed
@@ -647,7 +586,6 @@ class Solver:
 
     # -- freeing ------------------------------------------------------------------------------
 
-    @cython.cfunc
     def free(self) -> cython.void:
         """Free the space; nothing of it is used after that."""
         self.empty()
@@ -655,22 +593,18 @@ class Solver:
         chipmunk.free_space(self.space)
 
 
-@cython.cfunc
 def free_tie(tie: Tie) -> cython.void:
     """Free the joints of a tie that is in no space."""
-    part: Held
     for part in tie.joints:
         chipmunk.free_joint(part.handle)
     tie.joints = []
 
 
-@cython.cfunc
 def free_things_of(body: Body) -> cython.void:
     """Free the engine's objects of a body that is in no space."""
     if not body.made:
         return
     body.made = False
-    shape: Held
     for shape in body.shapes:
         chipmunk.free_shape(shape.handle)
     body.shapes = []

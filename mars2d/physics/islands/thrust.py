@@ -16,7 +16,6 @@ from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.floor import Glide
 
 
-@cython.final
 @cython.cclass
 class Thrust:
     """A robot under way to its command."""
@@ -35,12 +34,10 @@ class Thrust:
     bent: cython.bint  # whether the commanded velocity turns
     saturated: cython.bint  # whether its drive does all that it can
 
-    @cython.cfunc
     def over(self, body: Body, h: cython.double) -> cython.void:
         """Aim a robot at where it will be after h seconds, and work out its velocity then."""
         self.begin(body)
         gone: cython.double = 0.0
-        part: cython.double
         fine: cython.double = h
         if self.bent:
             fine = max(0.01 / max(abs(body.spin), abs(body.turning)), h / 4096)
@@ -64,7 +61,6 @@ class Thrust:
         body.end_x, body.end_y, body.end_spin = self.vx, self.vy, self.spin
         body.accelerates = not self.keeps or body.lags(self.spin)
 
-    @cython.cfunc
     def begin(self, body: Body) -> cython.void:
         """Take a robot as it is now."""
         self.way_x = self.way_y = 0.0
@@ -77,7 +73,6 @@ class Thrust:
         self.bent = self.bent and (moves or body.forward != 0.0 or body.left != 0.0)
         self.saturated = False
 
-    @cython.cfunc
     def follow(self, body: Body, part: cython.double) -> cython.void:
         """Go along the command's arc for a part of the time."""
         body.follow(self.angle, part)
@@ -87,13 +82,11 @@ class Thrust:
         self.spin = body.turning
         self.take_command(body)
 
-    @cython.cfunc
     def take_command(self, body: Body) -> cython.void:
         """Take the velocity that is commanded at its heading."""
         body.follow(self.angle, 0.0)
         self.vx, self.vy = body.aim_x, body.aim_y
 
-    @cython.cfunc
     def advance(self, body: Body, part: cython.double) -> cython.double:
         """Go on for a part of the time, or until spin or velocity is reached; return how long."""
         lack: cython.double = body.turning - self.spin
@@ -117,7 +110,6 @@ class Thrust:
             self.take_command(body)
         return part
 
-    @cython.cfunc
     def keep_up(self, body: Body, part: cython.double, rate: cython.double) -> cython.void:
         """Move as commanded, while the spin changes at a rate. Source: Simpson's rule."""
         body.follow(self.angle + part / 2 * (self.spin + rate * part / 4), 0.0)
@@ -127,7 +119,6 @@ class Thrust:
         self.way_x += part / 6 * (x + body.aim_x)
         self.way_y += part / 6 * (y + body.aim_y)
 
-    @cython.cfunc
     def limit_force(
         self, body: Body, x: cython.double, y: cython.double, part: cython.double
     ) -> cython.void:
@@ -139,7 +130,6 @@ class Thrust:
         body.set_bound(x, y, self.angle, self.vx + share * x, self.vy + share * y)
         self.quickens = body.bound / body.mass
 
-    @cython.cfunc
     def gain(self, body: Body, part: cython.double, rate: cython.double) -> cython.double:
         """Go towards the commanded velocity; return for how long, at most the part."""
         self.saturated = True
@@ -170,7 +160,6 @@ class Thrust:
         self.vy += y
         return part
 
-    @cython.cfunc
     def roll(self, body: Body, part: cython.double, turn: cython.double) -> cython.void:
         """Do so for wheels, which its motors drive ahead, and which hold it across if they can.
 
@@ -206,7 +195,6 @@ class Thrust:
         self.vy += s * push + c * hold
 
 
-@cython.cfunc
 def predict(body: Body, h: cython.double, glide: Glide, thrust: Thrust) -> cython.void:
     """Aim a body at where it will be after h s if nothing touches it, in closed form."""
     if not body.is_robot:
@@ -217,7 +205,6 @@ def predict(body: Body, h: cython.double, glide: Glide, thrust: Thrust) -> cytho
         thrust.over(body, h)
 
 
-@cython.cfunc
 def within(x: cython.double, most: cython.double) -> cython.double:
     """Return the number nearest to x that is no larger than a bound."""
     return min(max(x, -most), most)

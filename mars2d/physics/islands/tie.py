@@ -9,9 +9,9 @@ from mars2d.physics.islands import settings
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import cosine_sine, length
 from mars2d.physics.islands.body import Body
+from mars2d.physics.islands.chipmunk import Held
 
 
-@cython.final
 @cython.cclass
 class Tie:
     """A joint. b: the second body; where there is none, the world, and a again.
@@ -36,7 +36,7 @@ class Tie:
     largest: cython.double
     rebound: cython.double  # at these limits, the restitution
     parts: list[Any]  # how it is made in the solver: kind, whether turned round, three numbers
-    joints: list[Any]  # there
+    joints: list[Held]  # there
     # as measured now
     arm_ax: cython.double
     arm_ay: cython.double
@@ -74,7 +74,6 @@ class Tie:
         self.least, self.largest, self.rebound = limits
         self.parts, self.joints = parts, []
 
-    @cython.cfunc
     def measure(self) -> cython.void:
         """Measure where its ends are."""
         c, s = cosine_sine(self.a.angle)
@@ -96,7 +95,6 @@ class Tie:
         self.normal_x, self.normal_y = x / scale, y / scale
         self.slack = self.length - self.apart if self.is_rope else 0.0
 
-    @cython.cfunc
     def may_hold(self) -> cython.bint:
         """Return whether it may hold its bodies in this control step."""
         if self.always:
@@ -106,12 +104,10 @@ class Tie:
             way = way + self.b.way + 2 * length(self.anchor_bx, self.anchor_by)
         return self.slack <= way
 
-    @cython.cfunc
     def holds(self) -> cython.bint:
         """Return whether it holds its bodies now."""
         return self.always or self.slack <= settings.ROPE_TOLERANCE
 
-    @cython.cfunc
     def time_to_jerk(self, stretch: cython.double, play: cython.double) -> cython.double:
         """Return how long a substep may be, seconds.
 
@@ -149,7 +145,6 @@ class Tie:
             h = min(h, 2 * play / (speed + sqrt(speed * speed + 2 * turn * play) + 1e-12))
         return min(h, self.time_to_stop(play))
 
-    @cython.cfunc
     def time_to_stop(self, play: cython.double) -> cython.double:
         """Return when bodies have turned beyond a limit by so little that no tip goes `play` m."""
         self.turning = self.a.spin

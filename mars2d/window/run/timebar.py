@@ -10,7 +10,7 @@ import pygame
 
 from mars2d.core.plane import grid_step
 from mars2d.core.scene import Scene
-from mars2d.output.marks import MARKS
+from mars2d.output.controls import MARKS
 from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.theme import mixed

@@ -285,7 +285,10 @@ def test_what_is_seen_is_read(tmp_path, content, areas, walls):
 BOX = '<rect width="100" height="100" fill="red"/>'
 USE = '<use href="#s" x="5" y="5" width="2" height="2"/>'
 SIZE = 'markerWidth="2" markerHeight="2" markerUnits="userSpaceOnUse"'
-MARKER = f'<marker id="m" {SIZE}><rect width="2" height="2" fill="red"/></marker>'
+MARKER = f'<marker id="m" {SIZE}>{BOX}</marker>'
+HALF = (
+    '<clipPath id="c"><rect width="1" height="1" transform="translate(0 2) scale(2)"/></clipPath>'
+)
 
 
 @each_case(
@@ -302,9 +305,13 @@ MARKER = f'<marker id="m" {SIZE}><rect width="2" height="2" fill="red"/></marker
         (f'<symbol id="s" viewBox="0 0 100 100">{BOX}</symbol>{USE}', shapely.box(5, 1, 7, 3)),
         (f'<svg x="2" y="1" width="4" height="2" viewBox="0 0 100 100">{BOX}</svg>',
          shapely.box(3, 5, 5, 7)),  # in the middle of its place
+        (f'<svg x="2" y="1" width="4" height="2" viewBox="0 0 50 50">{BOX}</svg>',
+         shapely.box(3, 5, 6, 7)),  # cut off at its edge
         (f'<svg width="4" height="2" viewBox="0 0 100 100" preserveAspectRatio="none">{BOX}</svg>',
          shapely.box(0, 6, 4, 8)),
         ('<rect x="10%" y="25%" width="50%" height="50%"/>', shapely.box(1, 2, 6, 6)),
+        (f'{HALF}<g clip-path="url(\'#c\')"><rect width="9" height="3"/></g>',
+         shapely.box(0, 5, 2, 6)),
         ('<rect width="3" height="3"/><rect x="1" width="1" height="9" fill="white"/>',
          shapely.union(shapely.box(0, 5, 1, 8), shapely.box(2, 5, 3, 8))),  # white covers
         (f'{MARKER}<path d="M1 1V2" marker-end="url(#m)"/>', shapely.box(1, 4, 3, 6)),

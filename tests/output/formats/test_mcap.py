@@ -296,7 +296,7 @@ def test_foreign_files_are_refused_in_one_line(tmp_path) -> None:
 
     path = tmp_path / "run.mcap"
     for data, why in (
-        (b"", "empty: the run was killed before it began"),
+        (b"", "holds no rows: the run ended before its first one"),
         (b"hello", "this is no MCAP file"),
         (b"\x89MCAP0\r\n", "it has no rows of a run"),
     ):

@@ -99,9 +99,7 @@ def _cut(rows: list[bytes], count: int) -> None:
 
 def _why_nothing(path: Path, channels: set[int]) -> str:
     """Return why a file holds no run. channels: those for rows in the file."""
-    if path.stat().st_size < len(MAGIC):
-        return "empty: the run was killed before it began"
-    if channels:
+    if channels or path.stat().st_size < len(MAGIC):
         return "holds no rows: the run ended before its first one"
     return "an MCAP file, but not of MARS2D: it has no rows of a run"
 

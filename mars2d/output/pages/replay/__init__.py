@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING
 
 from mars2d.core.errors import InputError
 from mars2d.core.files import atomic_write
-from mars2d.output.controls import CONTROLS, PAUSE
-from mars2d.output.marks import MARKS
+from mars2d.output.controls import CONTROLS, MARKS, PAUSE
 from mars2d.output.pages.replay.content import content_of
 from mars2d.output.raster.theme import DARK, LIGHT, Theme, Tone
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from mars2d.bodies.colors import prop_colors
 from mars2d.core.description import snake_case
 from mars2d.core.scene import Scene
+from mars2d.output.controls import MARKS
 from mars2d.output.figures.extent import View, check_rows
 from mars2d.output.layers.arrows import MAX_ARROW
 from mars2d.output.layers.forces import SLIPPING
@@ -22,7 +23,6 @@ from mars2d.output.layers.trails import (
     prop_trail_colors,
     trail_colors,
 )
-from mars2d.output.marks import MARKS
 from mars2d.output.pages.replay.columns import Columns, Int, rounded
 from mars2d.output.pages.replay.drawings import Drawing, Flat, Float, flat, follows, pack, shapes_of
 from mars2d.output.raster.theme import LIGHT, mixed
