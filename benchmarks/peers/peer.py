@@ -227,6 +227,7 @@ class Run:
         self._gaps = gaps.Gaps(peer.scene)
         wide = peer.scene.radius * (1.0 if peer.ROUND else 1.5)
         self._wide = Geometry(dataclasses.replace(peer.scene, radius=wide))
+        self._alone = np.zeros(len(peer.scene.poses), dtype=bool)
 
     def timed(self, steps: int, seconds: float) -> dict[str, float]:
         """Do so many steps, or fewer if the time is up, and say how many and how long it took.
@@ -309,16 +310,21 @@ class Run:
         return {"steps": done, "lost": left, **deep}
 
     def _check_way(self, before: Float, after: Float) -> int:
-        """Check that robots with nothing near went as they were told; return how many these are."""
+        """Check that robots which nothing was near went as told; return how many these are."""
         scene = self.peer.scene
         v, omega = self.peer.command
         way = np.abs(v) * scene.sampling_time
         room = 2 * scene.sampling_time * scenes.SPEED + 0.01
         if not self.peer.ROUND:
             room += scene.radius
-        free = np.minimum(*self._gaps(before, 2 * room))[: len(way)] > room
-        for i, k, length in scene.ropes:
-            free[i] &= np.hypot(*(before[i] - before[len(way) + k])[:2]) < length - room
+        alone = np.minimum(*self._gaps(before, 2 * room))[: len(way)] > room
+        taut = {
+            k for i, k, length in scene.ropes
+            if np.hypot(*(before[i] - before[len(way) + k])[:2]) > length - room
+        }  # fmt: skip
+        alone[[i for i, k, _ in scene.ropes if k in taut]] = False  # it moves what all tow
+        # Who was thrown off its command has a step to come back to it.
+        free, self._alone = alone & self._alone, alone
         before, after = before[: len(way)], after[: len(way)]
         went = after - before
         moved = np.hypot(went[:, 0], went[:, 1])

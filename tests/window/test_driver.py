@@ -66,18 +66,6 @@ def test_full_speed_leaves_the_wheels_what_they_need_to_turn(drive, stick):
     assert omega == pytest.approx(-1.5 * stick.across)
 
 
-class Tank(Unicycle):
-    """A drive of a person's own, whose stick has two directions."""
-
-    def steered(self, across, ahead):
-        return ahead, across
-
-
-def test_a_drive_of_ones_own_is_asked_for_the_directions_that_it_has(driver):
-    driver.handle(key(UP))
-    assert settled(driver, Tank()) == (1.0, 0.0)
-
-
 def test_a_car_steers():
     car = Car(max_steering=0.4, max_linear_speed=2.0)
     assert Stick(-0.5, 1).command(car) == (2.0, 0.2)
@@ -97,14 +85,9 @@ def test_a_tap_is_a_nudge_and_a_stick_comes_back_sooner_than_it_goes_out():
 @each_case(
     "keys, command",
     [
-        ([UP], (0.0, 0.5)),
-        ([W], (0.0, 0.5)),
         ([DOWN], (0.0, -0.5)),
-        ([S], (0.0, -0.5)),
-        ([LEFT], (-0.5, 0.0)),
         ([A], (-0.5, 0.0)),
         ([RIGHT], (0.5, 0.0)),
-        ([D], (0.5, 0.0)),
         ([UP, W], (0.0, 0.5)),
         ([UP, DOWN], (0.0, 0.0)),
         ([UP, RIGHT], (0.5**1.5, 0.5**1.5)),

@@ -181,8 +181,6 @@ def test_where_there_is_little_room_the_wheel_and_the_focus_scroll(file):
     least, wanted = desk.panel.heights(desk.frame, 300)
     assert LEAST_ROWS * ROW < least < wanted
     desk.draw(round(least))
-    first = next(iter(desk.panel.places))
-    assert first == "robots.red0.mass", "those of the body that was just selected"
     assert "robots.red0.drive.max_torque" not in desk.panel.places
     for _ in range(40):
         desk.panel.handle(pygame.Event(pygame.MOUSEWHEEL, y=-1))

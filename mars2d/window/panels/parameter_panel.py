@@ -121,15 +121,11 @@ class ParameterPanel(RowsPanel):
         if experiment is not None and body is not None:
             body = body if body < len(experiment.scenario.bodies) else None
         if self._known is None or self._known[0] is not experiment or self._known[1] != body:
-            selected = body is not None and (self._known is None or self._known[1] != body)
             self._known = experiment, body
             try:
                 self._lines = [] if experiment is None else list(_lines(experiment, body))
             except InputError as error:  # of a Range of a law
                 self._lines, self.said = [Line("No parameters")], (str(error), "error")
-            if selected:  # let its sliders be seen
-                heading = max(k for k, line in enumerate(self._lines) if line.parameter is None)
-                self.scroll = sum(line.height for line in self._lines[:heading])
             if self.focus not in {line.parameter.name for line in self._lines if line.parameter}:
                 self.leave()
         return self._lines
@@ -202,8 +198,7 @@ class ParameterPanel(RowsPanel):
             return f"{focused.name}: {between}; {focused.default:.6g} in the file", "info"
         if self._selection.body is None:
             return "select a robot or prop for its mass, friction and drive", "info"
-        more = "; turn the wheel for more" if self.cut else ""
-        return f"drag a slider, or click it and type a number{more}", "info"
+        return "drag a slider, or click it and type a number", "info"
 
     # -- the mouse ----------------------------------------------------------------------------
 

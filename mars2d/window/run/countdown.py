@@ -7,13 +7,9 @@ from math import ceil
 
 import pygame
 
-from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
-from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.run.play import Choice, Play
-from mars2d.window.run.score_panel import draw_dot, draw_keys
-from mars2d.window.widgets.help import cap_width
 from mars2d.window.widgets.menu import Entry, Menu
 
 NUMBER = 90.0
@@ -41,12 +37,11 @@ class Countdown:
         surface: pygame.Surface,
         room: pygame.Rect,
         area: pygame.Rect,
-        camera: Camera,
-        frame: Frame,
+        scenario: Scenario,
     ) -> None:
         """Draw what there is to say now; area: of the picture, room: of the arena in it."""
         if not self.play.seats:
-            self._offer(surface, room, area, frame.scenario)
+            self._offer(surface, room, area, scenario)
             return
         self.menu.close()
         if not self.play.counting:
@@ -58,30 +53,6 @@ class Countdown:
         self.painter.panel(surface, plate, theme.plate + "d0", plate.width / 2, theme.edge)
         number = str(ceil(self.play.counting))
         self.painter.write(surface, number, size, theme.ink, bold=True, center=plate.center)
-        for seat in self.play.seats:
-            self._draw_seat(surface, room, camera, frame, seat.robot, seat.keys)
-
-    def _draw_seat(
-        self,
-        surface: pygame.Surface,
-        room: pygame.Rect,
-        camera: Camera,
-        frame: Frame,
-        robot: int,
-        keys: tuple[str, ...],
-    ) -> None:
-        """Draw a person's keys above the robot."""
-        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
-        ((x, y),) = camera.to_pixels([frame.body_pose(robot)[:2]]).astype(int).tolist()
-        wide = sum(cap_width(fonts, key, ui) for key in keys)
-        plate = pygame.Rect(0, 0, wide + round(34 * ui), round(40 * ui))
-        plate.midbottom = x, y - round(camera.scale * frame.scenario.robots[robot].radius + 8 * ui)
-        plate.clamp_ip(room)
-        self.painter.panel(surface, plate, theme.plate, 8 * ui, theme.edge)
-        left = plate.left + round(14 * ui)
-        color = theme.shade(frame.scenario.colors[robot])
-        draw_dot(surface, self.painter, color, (left, plate.centery))
-        draw_keys(surface, self.painter, keys, (left + round(12 * ui), plate.centery))
 
     def _offer(
         self, surface: pygame.Surface, room: pygame.Rect, area: pygame.Rect, scenario: Scenario

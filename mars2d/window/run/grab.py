@@ -18,9 +18,8 @@ from mars2d.record.frame import Frame
 from mars2d.window.run.drags import (
     GOOD,
     Act,
-    Move,
+    Placement,
     Pull,
-    Turn,
     draw_label,
     draw_ring,
     local_point,
@@ -31,7 +30,7 @@ from mars2d.window.screen.picking import body_at
 from mars2d.world.operator import fixed, forceless
 
 Pixel = tuple[int, int]
-Drag = Pull | Aim | Move | Turn
+Drag = Pull | Aim | Placement
 """A drag of the mouse that has begun on a body."""
 Kind = Literal["carry", "push", "turn"]
 
@@ -154,8 +153,8 @@ class Grab:
         elif running:
             self._drag = Pull(self._do, scenario, body, self._grip, start)
         else:
-            placement = Move if kind == "carry" else Turn
-            self._drag = placement(self._do, self._clock, frame, body, start)
+            turns = kind == "turn"
+            self._drag = Placement(self._do, self._clock, frame, body, start, turns=turns)
 
     def _do(self, act: Act) -> bool:
         """Do something to the world; show an InputError, and end a pull that is refused."""

@@ -78,8 +78,6 @@ USUAL = (
 )  # fmt: skip
 BY_HAND = (("↑ ↓ ← →", "drive"), ("Shift", "slowly"), ("H", "let go"), ("F1", "help"))
 """The keys that the footer names; a game's panel has its own."""
-SEEN = 4.0
-"""The radius below which robots of a game are hardly seen, so that the camera goes near, pixels."""
 
 
 class Window(PlayerWindow):
@@ -108,7 +106,6 @@ class Window(PlayerWindow):
         self._before: Countdown | None = None
         self._score: ScorePanel | None = None
         self._crowded = False  # whether forces are drawn as colours
-        self._unseen = False  # whether a game has not been drawn yet
         timeline = self.director.timeline
         self._reload = None if timeline is None else Reload(timeline, self._show_way_back)
         self._ending = Ending(self.player)
@@ -228,13 +225,8 @@ class Window(PlayerWindow):
         if self.editor is not None:
             return
         self._read_again()
-        if self.game is not None:
-            robots = self.player.source.scenario.robots
-            if self._unseen and min(r.radius for r in robots) * self.camera.scale < SEEN:
-                self.viewpoint.follow(None)
-            self._unseen = False
-            if self.game.pass_time(seconds):
-                self._rest.stir()
+        if self.game is not None and self.game.pass_time(seconds):
+            self._rest.stir()
         self.director.steer(seconds)
         self.grab.tick(self.player.frame, self.camera, self.player.playing)
         self.parameters.tick()
@@ -335,7 +327,7 @@ class Window(PlayerWindow):
         self._tools.stopwatch.draw(surface, self.viewpoint.room, self._painter, frame.time)
         self._draw_bars(surface, frame, banner)
         if self._before is not None and notes:
-            self._before.draw(surface, self.viewpoint.room, layout.plot, self.camera, frame)
+            self._before.draw(surface, self.viewpoint.room, layout.plot, frame.scenario)
         if notes:
             self.toolbar.draw(surface, layout, self._painter, self._pointer)
             self._tools.menu.draw(surface, layout.plot, self._painter)
@@ -649,7 +641,6 @@ class Window(PlayerWindow):
         self._before = Countdown(self._painter, self.game)
         self._score = ScorePanel(self._painter, self.game)
         self.dock.panels = [*self.dock.panels, self._score]
-        self._unseen = True
         self.game.begin(robots)
 
     def _open_editor(self) -> None:
