@@ -55,7 +55,7 @@ from mars2d.output.films.mp4 import require_av
 from mars2d.output.layers.table import Layers
 from mars2d.output.raster.layout import Layout, fitted
 from mars2d.output.raster.painter import Painter
-from mars2d.output.raster.stage import MEMORY, Stage
+from mars2d.output.raster.stage import Stage
 from mars2d.record.frame import Frame, between
 from mars2d.record.rows import COLUMNS
 from mars2d.sensors import RangeFinder
@@ -185,7 +185,8 @@ class Watched:
     ) -> None:
         """Prepare the window."""
         look = Preferences(dark=dark)
-        window = self._window = Window(Reel(scene), 0 if each_step else 1.0, SIZE, look)
+        reel: Any = Reel(scene)  # as a record that is played
+        window = self._window = Window(reel, 0 if each_step else 1.0, SIZE, look)
         window.layers = window.layers.switched(names=overlays, velocities=overlays, forces=overlays)
         if inspector:
             window.select(3)
@@ -245,7 +246,7 @@ class Scrubbed:
     def scrub(self, screen: pygame.Surface) -> dict[str, list[float]]:
         """Return the milliseconds to draw pictures, of a new stage."""
         painter, layout = Painter(), Layout.of(SIZE, controls=True)
-        stage, camera = Stage(painter, MEMORY), fitted(self._scenario.bounds, SIZE, layout)
+        stage, camera = Stage(painter), fitted(self._scenario.bounds, SIZE, layout)
 
         def drawn(row: int) -> float:
             frame = Frame(self._scenario, 0.1 * row, row, self._pose[row], self._pose[:row])

@@ -26,7 +26,7 @@ import numpy as np
 from scenes import Scene, among_crates, team
 from worlds import SETTINGS, deepest, world_of
 
-from mars2d.output.figures.figure import GRID, INK, MUTED
+from mars2d.output.figures.style import GRID, INK, MUTED
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

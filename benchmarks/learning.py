@@ -131,7 +131,7 @@ def vectors(rounds: int) -> dict[str, float]:
 def resets(rounds: int) -> dict[str, float]:
     """Return the median time of a reset of each task, ms."""
     found = {}
-    for make in (tasks.pursuit, tasks.push, tasks.sumo, tasks.coverage):
+    for make in (tasks.pursuit, tasks.push, tasks.sumo):
         environment = make()
         times = []
         for seed in range(rounds):

@@ -190,6 +190,7 @@ def accepts(kind: type[Description], field: dataclasses.Field[Any]) -> str:
                 expected += ", or None"
     expected = SHORT.get(expected, expected).replace(f" [{field.metadata['unit']}]", "")
     expected = expected.replace("a list, ", "").replace(" in metres", "")
+    expected = re.sub(r"a whole number from 1 to \d{4,}", "a whole number", expected)
     expected = re.sub(r"^a number >=? \S+ and <= [^\s,]*(e\+|000)\d*(, )?", "", expected)
     expected = re.sub(
         r"a number (>=?) (\S+) and (<=?) ([^\s,]+(?: pi)?)",

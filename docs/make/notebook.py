@@ -78,8 +78,10 @@ print(f"theory: {np.sqrt(3) * 0.3 / (0.5 * np.pi / 3):.2f} m")""",
     (
         "The same as a **table** of pandas.",
         """\
-table = record.to_frame()
-table.head(6)""",
+import pandas as pd
+
+table = pd.read_csv(record.save("chase.csv"))
+table.drop(columns="record").head(6)""",
     ),
     ("And as a **figure** of matplotlib, for the report.", "record.plot()"),
     (

@@ -173,12 +173,12 @@ def reference(module: str, name: str) -> str:
     text += f"::: {module}.{name}\n"
     if isinstance(held, type) and issubclass(held, Description):
         made = neighbour("fields")
-        rows = "".join(made.row(held, field) for field in made.fields_of(held))
+        lines = "".join(made.line(held, field) + "\n" for field in made.fields_of(held))
         base = made.base_of(held)
         if base is not None:
-            text += f"\n## Fields\n\nThose of `{base.__name__}`{', and' if rows else '.'}\n"
-        if rows:
-            text += ("" if base else "\n## Fields\n") + "\n" + made.TABLE_HEAD + rows
+            text += f"\n## Fields\n\nThose of `{base.__name__}`{', and' if lines else '.'}\n"
+        if lines:
+            text += ("" if base else "\n## Fields\n") + "\n" + lines
     found = [*uses(name)]
     if found:
         text += f"\n## Used in\n\n{' · '.join(found)}\n"

@@ -26,7 +26,7 @@ from mars2d.window.run.ghosts import ghosts
 from mars2d.window.run.grab import Grab
 from mars2d.window.run.window import Window
 from mars2d.window.screen.looks import Looks
-from mars2d.window.trio import Trio
+from mars2d.window.screen.source import Trio
 from mars2d.world.timeline import Timeline
 
 

@@ -253,7 +253,7 @@ def sliding() -> Iterator[Prediction]:
     pose = run([Robot(pose=(-50, 0, 0))], [[0], [0]], 10, props=pucks).prop_pose[-1]
     way = v**2 / (2 * mu * GRAVITY)
     yield Prediction("sliding puck: v^2 / (2 mu g)", way, pose[0, 0], 1e-9, "m")
-    (mass, moment), lever = pucks[1].inertia, pucks[1].shape.lever
+    (mass, moment), lever = pucks[1].inertia, pucks[1].shape.plate.lever
     turned = omega**2 * moment / (2 * mu * mass * GRAVITY * lever)
     yield Prediction("spinning puck: angle until it rests", turned, pose[2, 1], 1e-9, "rad")
 

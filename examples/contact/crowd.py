@@ -35,6 +35,7 @@ def control(world):
 def scenario(door: float = 0.58, speed: float = 0.5):
     robot = Robot(friction=0.1, drive=Holonomic(max_linear_speed=speed))
     wall = [(0, door / 2), (0, HALL), (LENGTH, HALL), (LENGTH, door / 2)]
+    blues = ["#0072b2", "#59a3cd", "#00507d"]
     return Scenario(
         title="A crowd at a door",
         robots=[robot.at(-0.5 - k // 10 * 0.45, (k % 10 - 4.5) * 0.45) for k in range(50)],
@@ -42,7 +43,9 @@ def scenario(door: float = 0.58, speed: float = 0.5):
         on_exit="wall",
         stop_time=60.0,
         addons=[Map([wall, [(x, -y) for x, y in wall]])],
-        animation=Animation(playback_speed=3, wake=False, show_initial_pose=False),
+        animation=Animation(
+            playback_speed=3, wake=False, show_initial_pose=False, base_colors=blues
+        ),
     )
 
 

@@ -89,10 +89,6 @@ class Addon(Stateful):
         """Return the beacons' positions now, by name, for the sensor Beacon; by default none."""
         return {}
 
-    def named_points(self, frame: Any) -> list[tuple[str, Point]]:  # noqa: ARG002
-        """Return points with their names, which the window shows under the pointer; here, none."""
-        return []
-
     def ground(self, point: Point) -> Color | None:  # noqa: ARG002
         """Return the colour of the floor at a point, red, green and blue from 0 to 1.
 

@@ -54,14 +54,8 @@ class Beacon(Addon):
                 "Beacon: expected where it stands, such as at=(1, 2), or its path, such as "
                 "path=[(0, 0), (2, 0)], speed=0.5"
             )
-        if self.path is not None and self.speed is None:
-            raise InputError("Beacon.speed is missing: how fast it moves along its path, m/s")
-        if self.path is None and self.speed is not None:
-            raise InputError(
-                f"Beacon.speed = {self.speed:g}: a beacon with `at` stands; to move it needs `path`"
-            )
-        if self.path is None and not self.closed:
-            raise InputError("Beacon.closed = False: it is said of a `path`, and there is none")
+        if (self.path is None) != (self.speed is None):
+            raise InputError("Beacon: a `path` needs a `speed` [m/s] along it, and a speed a path")
 
     def where(self, time: float) -> Point:
         """Return where it is at a time [s]: (x, y) in metres."""
@@ -94,10 +88,6 @@ class Beacon(Addon):
     def beacons(self) -> Mapping[str, Point]:
         """Return where it is now, by its name."""
         return {self.key: self.position}
-
-    def named_points(self, frame: FrameLike) -> list[tuple[str, Point]]:
-        """Return where it is at the frame's time, with its name."""
-        return [(f"beacon {self.key}", self.where(frame.time))]
 
     def on_start(self, world: WorldLike) -> None:
         """Take the world's clock."""

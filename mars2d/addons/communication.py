@@ -86,9 +86,6 @@ class Communication(Addon):
         default=None, above=0, high=1e6, unit="m", optional=True,
         doc="the range of radio, from pose to pose; None: unbounded",
     )  # fmt: skip
-    line_of_sight: bool = flag(
-        default=False, doc="whether walls, props and other robots block the view"
-    )
     neighbours_only: bool = flag(
         default=False, doc="whether robots hear only their neighbours, by `Scenario.neighbours`"
     )

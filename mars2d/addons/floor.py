@@ -8,13 +8,19 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.addons.base import Color
-from mars2d.addons.pictured import Pictured
+from mars2d.addons.base import Addon, Color
 from mars2d.core import checks
 from mars2d.core.description import accepts, entry, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.interfaces import WorldLike
-from mars2d.core.picture import Bounds
+from mars2d.core.picture import (
+    Bounds,
+    Picture,
+    image_bounds,
+    image_file,
+    picture_name,
+    read_picture,
+)
 from mars2d.core.plane import Outline, Point, bounds_of, inside_polygon, rectangle
 from mars2d.core.scene import Scene, rgb
 from mars2d.core.scene import color as checked_color
@@ -43,7 +49,7 @@ def _patches(name: str, value: object) -> tuple[tuple[Outline, str], ...]:
     return tuple(patches)
 
 
-class Floor(Pictured):
+class Floor(Addon):
     """The colours of the floor, for the sensor Ground: one everywhere, an image on it, patches.
 
     >>> Floor(patches=[([(0, 0), (1, 0), (1, 1)], "black")]).ground((0.9, 0.5))
@@ -59,6 +65,11 @@ class Floor(Pictured):
     channel and up to 4096 x 4096 pixels.
     """
 
+    image: str | None = entry(default=None, check=image_file, doc="a PNG file")
+    bounds: Bounds | None = entry(
+        default=None, check=image_bounds, unit="m",
+        doc="the area of the image",
+    )  # fmt: skip
     patches: Sequence[tuple[Outline, str]] = entry(
         default=(), check=_patches, unit="m", doc="polygons and their colours: (outline, colour)"
     )
@@ -68,9 +79,18 @@ class Floor(Pictured):
         doc="the colour of the rest; None: transparent",
     )
 
-    @property
-    def _beneath(self) -> str | None:
-        return self.color
+    def _validate(self) -> None:
+        super()._validate()
+        if (self.image is None) != (self.bounds is None):
+            problem = "is missing" if self.bounds is None else "is given without an image"
+            where = "where the image lies, (xmin, xmax, ymin, ymax) in metres"
+            raise InputError(f"{type(self).__name__}.bounds {problem}: {where}")
+
+    @cached_property
+    def picture(self) -> Picture:
+        """The picture. Raises InputError where its file can't be read."""
+        assert self.image is not None
+        return read_picture(f"{type(self).__name__}.image", self.image, self.color)
 
     @cached_property
     def _colored(self) -> tuple[tuple[Bounds, NDArray[np.float64], Color], ...]:
@@ -118,6 +138,8 @@ class Floor(Pictured):
                 scene.image(self.picture.pixels, self.bounds)
             except InputError:
                 scene.polygon(rectangle(*self.bounds), fill="#e6e9ed")
-                self.paint_absent(scene, self.bounds)
+                xmin, xmax, ymin, ymax = self.bounds
+                absent = f"{picture_name(str(self.image))} is not there"
+                scene.text(((xmin + xmax) / 2, (ymin + ymax) / 2), absent)
         for outline, color in self.patches:
             scene.polygon(outline, fill=color)

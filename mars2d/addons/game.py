@@ -10,8 +10,20 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.addons.contest import Capture, Outcome, Teams, listed, robots_of, wins
-from mars2d.addons.elimination import Elimination, Exit, Float, Span, firsts, mark
+from mars2d.addons.contest import (
+    Capture,
+    Elimination,
+    Exit,
+    Float,
+    Outcome,
+    Span,
+    Teams,
+    firsts,
+    listed,
+    mark,
+    robots_of,
+    wins,
+)  # fmt: skip
 from mars2d.core import checks
 from mars2d.core.arithmetic import ROUNDING, norms
 from mars2d.core.description import accepts, entry, flag, integer, number, real, wrong

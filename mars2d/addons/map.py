@@ -65,7 +65,7 @@ class Map(Addon):
         tolerance: float = 0.02,
         at: Sequence[float] | None = None,
     ) -> Map:
-        """Return the map in a file: a drawing, an occupancy grid of ROS, an image, GeoJSON, WKT.
+        """Return the map in a file: a drawing, an occupancy grid of ROS, an image, GeoJSON.
 
         path: a relative one is looked for beside the file that calls this, then in the current
         folder; a Map is returned as it is. layers: names or patterns such as ``*WALL*``, a list

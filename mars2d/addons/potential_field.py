@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cached_property, lru_cache
 
 from mars2d.addons.base import Addon
-from mars2d.core.description import number, text
+from mars2d.core.description import number
 from mars2d.core.errors import InputError
 from mars2d.core.interfaces import FrameLike, ScenarioLike, WorldLike
 from mars2d.core.plane import Point
@@ -24,8 +24,8 @@ class PotentialField(Addon):
 
     Laws ask ``world.addons.potential_field.force(robot)``. Obstacles are those of the scenario,
     goals those of the add-on Waypoints; `of` returns their `Potential`, `plan` predicts where it
-    leads a robot that meets no other. The theory that is drawn is the direction of the force on one
-    robot, and crosses at the local minima in which robots are caught.
+    leads a robot that meets no other. The theory that is drawn is the direction of the force on the
+    robot of the last route, and crosses at the local minima in which robots are caught.
 
     Source: Khatib, Int. Journal of Robotics Research 5(1), 1986.
     """
@@ -41,12 +41,6 @@ class PotentialField(Addon):
     )
     reach: float = number(
         default=0.6, above=0, high=1e6, unit="m", doc="rho_0: edges nearer to a robot's rim repel"
-    )
-    drawn: str | None = text(
-        default=None,
-        optional=True,
-        doc="the robot whose field is drawn; None: that of the last route",
-        names="robot",
     )
     spacing: float = number(
         default=1.0, low=0.1, high=1e6, unit="m", doc="the spacing of the drawn grid"
@@ -87,8 +81,6 @@ class PotentialField(Addon):
 
     def on_start(self, world: WorldLike) -> None:
         """Take the world and its obstacles."""
-        if self.drawn is not None:
-            world.scenario.index_of("PotentialField.drawn", self.drawn)
         self._world, self._field = world, self.of(world.scenario)
 
     @cached_property
@@ -102,14 +94,9 @@ class PotentialField(Addon):
         if not any(isinstance(addon, Goals) for addon in scenario.addons):
             return
         goals = _goals(scenario)
-        index = len(goals.routes) - 1
-        if self.drawn is not None:
-            index = scenario.index_of("PotentialField.drawn", self.drawn)
-        arrow = 0.3 * self.spacing
-        there = index < len(goals.routes) and goals.routes[index]
-        goal = goals.goal(index, frame) if there else None
-        field, spacing = self.of(scenario), self.spacing
-        for (x, y), (ux, uy) in field.arrows(goal, scenario.bounds, spacing) if goal else ():
+        last, arrow = len(goals.routes) - 1, 0.3 * self.spacing
+        field, goal = self.of(scenario), goals.goal(last, frame) if goals.routes[last] else None
+        for (x, y), (ux, uy) in field.arrows(goal, scenario.bounds, self.spacing) if goal else ():
             tail, tip = (x - arrow * ux, y - arrow * uy), (x + arrow * ux, y + arrow * uy)
             scene.arrow(tail, tip, fill=faded(THEORY, 0.45), width=1.0)
         for route, (reached, end) in zip(goals.routes, self.plan(scenario), strict=True):

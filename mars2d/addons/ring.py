@@ -6,8 +6,17 @@ from collections.abc import Sequence
 from math import inf
 from typing import ClassVar
 
-from mars2d.addons.contest import Outcome, Teams, listed
-from mars2d.addons.elimination import MARK, Elimination, Exit, Span, firsts, mark
+from mars2d.addons.contest import (
+    MARK,
+    Elimination,
+    Exit,
+    Outcome,
+    Span,
+    Teams,
+    firsts,
+    listed,
+    mark,
+)  # fmt: skip
 from mars2d.core import checks
 from mars2d.core.arithmetic import norms
 from mars2d.core.description import entry, number

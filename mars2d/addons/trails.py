@@ -9,9 +9,8 @@ import numpy as np
 
 from mars2d.addons.base import Addon
 from mars2d.core.arithmetic import ROUNDING
-from mars2d.core.checks import names
-from mars2d.core.description import entry, number
-from mars2d.core.interfaces import FrameLike, WorldLike
+from mars2d.core.description import number
+from mars2d.core.interfaces import FrameLike
 from mars2d.core.scene import Scene, color_of, rgb
 
 MAX_PIECES = 12
@@ -30,7 +29,7 @@ STRENGTH = 0.85
 class Trails(Addon):
     """Draws the paths of the last seconds, which fade out behind the robots.
 
-    >>> Trails(duration=20, robots=["leader"]).key
+    >>> Trails(duration=20).key
     'trails'
 
     They show in the window, in figures, films and replays. ``Animation(wake=False)`` switches off
@@ -41,30 +40,13 @@ class Trails(Addon):
     duration: float = number(
         default=10.0, above=0, high=1e6, unit="s", doc="the duration of a trail"
     )
-    robots: tuple[str, ...] | None = entry(
-        default=None,
-        check=names("a list of robots' names, such as ['robot0', 'leader'], or None"),
-        doc="the names of robots with a trail; None: all robots",
-        names="robot",
-    )
     width: float = number(
         default=2.5, above=0, high=50, unit="points", doc="width of the line, on the screen or page"
     )
 
-    def on_start(self, world: WorldLike) -> None:
-        """Look the robots up; raise InputError if there is none of such a name."""
-        for name in self.robots or ():
-            world.scenario.index_of("Trails.robots", name)
-
     def draw(self, scene: Scene, frame: FrameLike) -> None:
         """Draw the paths of the last `duration` seconds."""
-        listed = zip(frame.scenario.robots, frame.scenario.colors, strict=True)
-        chosen = [
-            (i, color)
-            for i, (robot, color) in enumerate(listed)
-            if self.robots is None or robot.name in self.robots
-        ]
-        period = frame.scenario.sampling_time
+        period, colors = frame.scenario.sampling_time, frame.scenario.colors
         rows = min(len(frame.path), floor(frame.time / period + ROUNDING) + 1)
         first = max(0, ceil((frame.time - self.duration) / period - ROUNDING))
         stride = 1
@@ -74,10 +56,10 @@ class Trails(Addon):
         kept = np.arange(-(-first // stride) * stride, rows, stride)
         path = np.concatenate([frame.path[kept, :2], frame.pose[None, :2]])  # (k, 2, n)
         age = frame.time - np.append(kept * period, frame.time)
-        pieces = max(1, min(MAX_PIECES, MAX_LINES // max(len(chosen), 1)))
+        pieces = max(1, min(MAX_PIECES, MAX_LINES // max(len(colors), 1)))
         freshness = np.clip(np.ceil((1 - age / self.duration) * pieces), 1, pieces).astype(int)
         starts = np.searchsorted(freshness, np.arange(1, pieces + 2))
-        for i, color in chosen:
+        for i, color in enumerate(colors):
             for level, (start, stop) in enumerate(pairwise(starts.tolist()), 1):
                 points = path[max(start - 1, 0) : stop, :, i]  # on from the last piece's end
                 if start < stop and len(points) > 1:

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons.base import Addon
-from mars2d.core.description import number, text, wrong
-from mars2d.core.errors import InputError, nearest
+from mars2d.core.description import number
+from mars2d.core.errors import InputError
 from mars2d.core.interfaces import FrameLike, ScenarioLike, WorldLike
 from mars2d.core.plane import Outline
 from mars2d.core.scene import THEORY, Scene, faded
@@ -30,13 +30,10 @@ class Voronoi(Addon):
     cost are weighted by it.
 
     The cells are drawn in their robots' colours, and the centroids where theory is shown. A saved
-    record has no functions: a Density of a function is lost with it, and the cells of the loaded
-    record are not weighted, or with `density` named are refused.
+    record has no functions: a Density is lost with it, and the cells of the loaded record are not
+    weighted.
     """
 
-    density: str | None = text(
-        default=None, optional=True, doc="the name of the Density; None: the only one"
-    )
     resolution: float | None = number(
         default=None, above=0, high=1e6, unit="m", optional=True,
         doc="of sums over a density, see Tessellation; None: 1/12 of the workspace's longer side",
@@ -63,21 +60,8 @@ class Voronoi(Addon):
         return self._found[1]
 
     def _weighed(self, scenario: ScenarioLike, position: NDArray[np.float64]) -> Tessellation:
-        weight = self._weight(scenario)
+        weight = next((addon for addon in scenario.addons if isinstance(addon, Weight)), None)
         return Tessellation(position, _region(scenario), weight, self.resolution)
-
-    def _weight(self, scenario: ScenarioLike) -> Weight | None:
-        """Return the add-on whose density counts, if there is one."""
-        addons = {addon.key: addon for addon in scenario.addons}
-        known = {key: addon for key, addon in addons.items() if isinstance(addon, Weight)}
-        if self.density is None and len(known) < 2:
-            return next(iter(known.values()), None)
-        if self.density is None:
-            raise InputError(f"Voronoi.density is missing: which one counts, {' or '.join(known)}")
-        if self.density not in known:
-            expected = f"the name of a Density in Scenario.addons{nearest(self.density, known)}"
-            raise wrong("Voronoi.density", self.density, expected)
-        return known[self.density]
 
     def draw(self, scene: Scene, frame: FrameLike) -> None:
         """Draw the cells, each in its robot's colour."""

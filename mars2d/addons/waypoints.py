@@ -147,11 +147,3 @@ class Waypoints(Addon):
             if route:
                 ink = faded(color, PALE if done == len(route) else 1.0)
                 scene.circle(route[-1], self.tolerance, stroke=ink, width=1.2)
-
-    def named_points(self, frame: FrameLike) -> list[tuple[str, Point]]:
-        """Return all waypoints with their names."""
-        return [
-            (f"waypoint {k} of {robot.name}", place)
-            for robot, route in zip(frame.scenario.robots, self.routes, strict=False)
-            for k, place in enumerate(route)
-        ]

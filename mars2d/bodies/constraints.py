@@ -7,10 +7,8 @@ its solver. So a new joint that is made of these needs no change in the physics.
 from __future__ import annotations
 
 from math import pi
-from typing import Any
 
 from mars2d.core.description import Description, number
-from mars2d.core.errors import InputError
 
 MAX_LENGTH = 1e12
 MAX_STIFFNESS = 1e6
@@ -20,14 +18,6 @@ MAX_TURN = 100 * pi
 
 class Constraint(Description):
     """The base of all constraints. The physics knows those of this module, and no others."""
-
-    def __init_subclass__(cls, **kwargs: Any) -> None:
-        if cls.__module__ != __name__:
-            raise InputError(
-                f"{cls.__name__}: the physics knows the constraints of {__name__} only; "
-                "make a joint of these"
-            )
-        super().__init_subclass__(**kwargs)
 
 
 class MaxDistance(Constraint):

@@ -66,4 +66,4 @@ class Rigid(NamedTuple):
 
 def inertia_of(shape: Shape, mass: float, moment: float | None) -> Inertia:
     """Return mass and moment of a body: the moment of a uniform plate unless one is given."""
-    return Inertia(mass, mass * shape.moment_per_mass if moment is None else moment)
+    return Inertia(mass, mass * shape.plate.moment_per_mass if moment is None else moment)

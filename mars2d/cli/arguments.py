@@ -51,7 +51,7 @@ def option(metavar: str | None, about: str, kind: Any = None, **more: Any) -> di
 OUTPUTS = {
     "record": tuple(formats.FORMATS),
     "figure": figure.SUFFIXES,
-    "video": film.SUFFIXES,
+    "video": tuple(film.ENCODERS),
     "html": (".html", ".htm"),
     "out": (".csv",),
 }

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 from math import inf, isfinite, nan, pi
-from typing import Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mars2d.core.arithmetic import angles_of, cosine_sine, norms
-from mars2d.core.plane import WITHIN, Point, up_to, wrap
+from mars2d.core.plane import WITHIN, up_to, wrap
 from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene, faded
 
@@ -21,15 +21,6 @@ RANGE = Quantity("range", "m", "distance")
 BEARING = Quantity("bearing", "rad", "angle")
 
 
-class Sight(Protocol):
-    """Tells whether something is in the way; see `mars2d.sensors.Surroundings`."""
-
-    def hidden(
-        self, start: Point, points: Float, bodies: ArrayLike, ignore: int
-    ) -> NDArray[np.bool_]:
-        """Return whether something is between `start` and each of the points (k, 2)."""
-
-
 def sighted(
     poses: Float,
     points: Float,
@@ -37,14 +28,14 @@ def sighted(
     field_of_view: float,
     bodies: NDArray[np.int64] | None = None,
     robots: Sequence[int] = (),
-    sight: Sight | None = None,
+    sight: Any = None,
 ) -> Float:
     """Return rows of range [m] and bearing [rad] of points (k, 2) as seen from poses (3, m).
 
     The result is (m, k, 2). A point that is not seen has the row (inf, nan). reach: the largest
     range, metres. field_of_view: the angle seen about the heading, radians. bodies: (k,), the body
     to which each point belongs. robots: (m,), the one that looks from each pose; it does not see
-    its own points. sight: tells which points are hidden; without it, none is.
+    its own points. sight: `Surroundings`, which tell who is hidden; None: nobody.
     """
     rows = np.empty((poses.shape[1], len(points), 2))
     rows[..., 0], rows[..., 1] = inf, nan
@@ -75,7 +66,7 @@ def _not_hidden(
     points: Float,
     bodies: NDArray[np.int64],
     robots: Sequence[int],
-    sight: Sight,
+    sight: Any,
     who: NDArray[np.intp],
     what: NDArray[np.intp],
 ) -> NDArray[np.bool_]:

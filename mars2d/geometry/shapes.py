@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from functools import cache, cached_property, lru_cache
-from math import pi, sqrt
+from math import frexp, pi, sqrt
 from typing import NamedTuple, Self
 
 import numpy as np
@@ -19,7 +19,6 @@ from mars2d.core.arithmetic import cosine_sine, norm, norms
 from mars2d.core.description import Description, accepts, entry, real, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Outline, Point
-from mars2d.geometry.logarithm import arsinh
 
 Float = NDArray[np.float64]
 
@@ -63,7 +62,8 @@ class Plate(NamedTuple):
     """The mass properties of a uniform plate, for any mass.
 
     area [m^2]; centroid (x, y) [m]; moment_per_mass [m^2], of inertia about the frame's origin;
-    lever [m], the mean distance of the plate's points from the centroid.
+    lever [m], the mean distance of the plate's points from the centroid: ground friction slows a
+    spinning body with the torque mu m g lever.
     """
 
     area: float
@@ -103,19 +103,6 @@ class Shape(Description):
     def centroid(self) -> Point:
         """Its centre of mass (x, y), metres."""
         return self.plate.centroid
-
-    @property
-    def moment_per_mass(self) -> float:
-        """The moment of inertia about the frame's origin of a plate of 1 kg, m^2."""
-        return self.plate.moment_per_mass
-
-    @property
-    def lever(self) -> float:
-        """The mean distance of its points from the centroid, metres.
-
-        Ground friction slows a spinning body with the torque mu m g lever.
-        """
-        return self.plate.lever
 
     @cached_property
     def bound(self) -> tuple[Point, float]:
@@ -486,3 +473,27 @@ def _joined(part: Part, other: Part, i: int, j: int) -> Part:
     """Return two parts merged across their diagonal, (i, j) in the first, (j, i) in the other."""
     a, b = part.index(j), other.index(i)
     return _from_lowest((*part[a:], *part[:a], *(*other[b:], *other[:b])[1:-1]))
+
+
+def logarithm(x: float) -> float:
+    """Return the natural logarithm of a number x > 0, the same on every processor."""
+    m, k = frexp(x)
+    if m < 0.7071067811865476:
+        m, k = m * 2, k - 1
+    rest = _double_artanh((m - 1) / (m + 1))
+    return k * 6.93147180369123816490e-01 + (k * 1.90821492927058770002e-10 + rest)
+
+
+def arsinh(x: float) -> float:
+    """Return the inverse hyperbolic sine of a number."""
+    more = abs(x) + x * x / (1 + sqrt(x * x + 1))
+    size = _double_artanh(more / (2 + more)) if more < 0.4 else logarithm(1 + more)
+    return -size if x < 0 else size
+
+
+def _double_artanh(s: float) -> float:
+    """Return ln((1 + s) / (1 - s)) for |s| <= 0.172."""
+    z, p = s * s, 0.0
+    for odd in range(21, 1, -2):
+        p = (p + 1 / odd) * z
+    return 2 * s * (1 + p)

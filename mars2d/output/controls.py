@@ -1,8 +1,13 @@
-"""The controls that the window and the replay in a browser share: their titles, keys and icons."""
+"""What the window and the replay in a browser share: controls, and the marks of the time bar."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
+
+from mars2d.output.layers.forces import FORCE
+from mars2d.output.raster.theme import Theme
+from mars2d.record.marks import MarkKind
 
 
 class Control(NamedTuple):
@@ -72,7 +77,6 @@ CONTROLS = {
         "M3 7.5h4l2-3h6l2 3h4V19H3ZM8.5 13a3.5 3.5 0 1 0 7 0a3.5 3.5 0 1 0-7 0",
     ),
     "film": Control("Film", "V", "M3 6h12v12H3ZM15 10.5l6-3.5v10l-6-3.5"),
-    "scenario": Control("Save scenario", "C", "M8 7l-5 5 5 5M16 7l5 5-5 5M14 5l-4 14"),
     "screen": Control("Full screen", "F11", "M14 4h6v6M20 4l-7 7M10 20H4v-6M4 20l7-7"),
     "dark": Control("Dark", "D", "M20 14.5A8.5 8.5 0 0 1 9.5 4 8.5 8.5 0 1 0 20 14.5Z"),
     "text": Control("Larger text", "Z", "M5 19 12 4l7 15M7.6 13.5h8.8"),
@@ -90,3 +94,24 @@ CONTROLS = {
 
 PAUSE = "M7 5h3.4v14H7ZM13.6 5H17v14h-3.4Z"
 """The icon in place of that to play, while time passes."""
+
+
+class Mark(NamedTuple):
+    """A kind of tick.
+
+    color: in a theme. above, below: whether it stands above and below the line. meaning: in words.
+    """
+
+    color: Callable[[Theme], str]
+    above: bool
+    below: bool
+    meaning: str
+
+
+MARKS: dict[MarkKind, Mark] = {
+    "collision": Mark(lambda theme: theme.shade(FORCE), False, True, "bodies came to touch"),
+    "hand": Mark(lambda theme: theme.hand.ink, True, False, "something was changed by hand"),
+    "branch": Mark(lambda theme: theme.past.ink, True, True, "another branch begins"),
+    "error": Mark(lambda theme: theme.error.ink, True, True, "the run failed"),
+}
+"""In the order in which they are drawn."""

@@ -35,23 +35,20 @@ HEADS = (
 DRIVE_UNIT = "unit of the drive"
 """The unit of commands if drives state none, or different ones."""
 
-COLOR_UNIT = "red, green, blue"
-"""The unit of colours, which are drawn in their own colours."""
-
 NOTHING = 1e-9
 """Curves of less than this share of the largest one are not drawn."""
 
-MIN_IMAGE_NUMBERS = 6
-"""The fewest numbers of one kind in a reading that is drawn as an image."""
+MAX_NUMBERS = 12
+"""The most numbers of one kind in a reading that are drawn as curves."""
 
 
 @dataclass(frozen=True, eq=False)
 class Signal:
     """A column over time.
 
-    values: (T, k), one column for each of the `bodies`; (T, k, beams) for readings of many numbers,
-    (T, k, pixels, 3) for colours. held: "post" if a value holds until the next row, "pre" if it has
-    held since the row before, "" if it belongs to an instant. bearings: (beams,) degrees, if known.
+    values: (T, k), one column for each of the `bodies`; (T, k, m) for readings of several numbers.
+    held: "post" if a value holds until the next row, "pre" if it has
+    held since the row before, "" if it belongs to an instant.
     """
 
     name: str
@@ -59,9 +56,6 @@ class Signal:
     values: NDArray[Any]
     bodies: tuple[int, ...]
     held: str = ""
-    bearings: Float | None = None
-    nearest: bool = False
-    """Whether an image that is thinned keeps the smallest numbers, as for distances."""
     wraps: bool = False
     """Whether the values are angles, which jump from pi to -pi."""
     curves: tuple[str, ...] = ()
@@ -249,28 +243,16 @@ def _readings(
         raise InputError(f"columns: {name!r}: none of the robots chosen has it; {have} do")
     order = sorted(mine, key=lambda k: robots.index(carriers[k]))
     sensor = record.scenario.robots[carriers[order[0]]].sensor(key)
-    whole = Signal(
-        key, "", record.sensors[key][:, order], tuple(carriers[k] for k in order),
-        bearings=_bearings(sensor, record.sensors[key].shape[2:]),
-    )  # fmt: skip
+    whole = Signal(key, "", record.sensors[key][:, order], tuple(carriers[k] for k in order))
     found = _by_quantity(whole, sensor, name, parts)
     for signal in found:
-        if signal.values.ndim > 3 and signal.unit != COLOR_UNIT:
-            shape = signal.values.shape[2:]
+        shape = signal.values.shape[2:]
+        if len(shape) > 1 or (sum(shape) > MAX_NUMBERS and signal.values.dtype != np.bool_):
             raise InputError(
                 f"columns: {signal.name!r} has readings of shape {shape}: choose a part of them, "
                 f"as '{signal.name}.0'"
             )
     return found
-
-
-def _bearings(sensor: Sensor | None, shape: tuple[int, ...]) -> Float | None:
-    """Return the bearings of a reading's beams, degrees, if they are evenly spaced."""
-    angles = np.asarray(getattr(sensor, "angles", ()))
-    if angles.ndim != 1 or len(angles) < 2 or angles.shape != shape[:1]:
-        return None
-    even = np.linspace(angles[0], angles[-1], len(angles))
-    return np.degrees(even) if np.allclose(angles, even, atol=1e-9) else None
 
 
 def _by_quantity(whole: Signal, sensor: Sensor | None, name: str, parts: list[str]) -> list[Signal]:
@@ -281,9 +263,6 @@ def _by_quantity(whole: Signal, sensor: Sensor | None, name: str, parts: list[st
     quantities = sensor.quantities if sensor is not None else ()
     shape = whole.values.shape[2:]
     several = len(quantities) > 1 and shape[-1:] == (len(quantities),)
-    if not parts and shape[-1:] == (3,) and len(shape) < 3 and _is_color(quantities):
-        pixels = whole.values.reshape(*whole.values.shape[:2], -1, 3)
-        return [replace(whole, unit=COLOR_UNIT, values=pixels)]
     names = [quantity.name for quantity in quantities] if several else []
     signal, wanted = whole, list(range(len(names)))
     for part in parts:
@@ -311,23 +290,14 @@ def _by_quantity(whole: Signal, sensor: Sensor | None, name: str, parts: list[st
     ]  # fmt: skip
 
 
-def _is_color(quantities: Sequence[Quantity]) -> bool:
-    return bool(quantities) and all(quantity.kind == "color" for quantity in quantities)
-
-
 def _of_kind(signal: Signal, quantity: Quantity) -> Signal:
     """Return a signal with the unit of a quantity, and drawn as its kind requires."""
-    kind = quantity.kind
-    return replace(signal, unit=quantity.unit, nearest=kind == "distance", wraps=kind == "angle")
+    return replace(signal, unit=quantity.unit, wraps=quantity.kind == "angle")
 
 
 def _indexed(signal: Signal, index: int) -> Signal:
     """Return one entry of a reading's first axis, for example one beam."""
-    bearing = "" if signal.bearings is None else f" ({signal.bearings[index]:.4g}°)"
-    return replace(
-        signal, name=f"{signal.name}.{index}{bearing}", values=signal.values[:, :, index],
-        bearings=None,
-    )  # fmt: skip
+    return replace(signal, name=f"{signal.name}.{index}", values=signal.values[:, :, index])
 
 
 def without_nothing(signal: Signal) -> Signal:

@@ -74,7 +74,7 @@ def _body(module: Any, number: int, rigid: Rigid, part: Robot | Prop, forces: bo
     if isinstance(part, Prop):
         body.describe(what | {
             "grip": part.ground_friction * inertia.mass * GRAVITY,
-            "rest_grip": part.resting_friction * inertia.mass * GRAVITY, "lever": shape.lever,
+            "rest_grip": part.resting_friction * inertia.mass * GRAVITY, "lever": shape.plate.lever,
         })  # fmt: skip
     else:
         drive = part.drive

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -150,16 +150,6 @@ def met_or_parted(contacts: NDArray[np.void]) -> NDArray[np.bool_]:
         mine = np.flatnonzero((pairs == pair).all(axis=1))
         found[mine[-1]] |= contacts["ended"][mine].all()
     return found
-
-
-def count_meetings(pieces: Iterable[NDArray[np.void]]) -> int:
-    """Return how often two bodies came to touch, in contacts that are given piece by piece."""
-    count, before = 0, np.empty(0, dtype=CONTACT)
-    for piece in pieces:
-        contacts = np.concatenate([before, piece])
-        count += int(met(contacts)[len(before) :].sum())
-        before = contacts[contacts["time"] + contacts["duration"] >= piece["time"][-1] - ROUNDING]
-    return count
 
 
 def rows_of(contacts: NDArray[np.void], time: Float, sampling_time: float) -> NDArray[np.intp]:

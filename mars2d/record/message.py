@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import json
 from bisect import bisect_left
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.errors import LawError, shown
+from mars2d.core.errors import LawError, one_line, shown
 
 STATUS = ("on its way", "delivered", "lost", "out of reach", "over the bandwidth")
 """The states of a message, by the number in the field `status`."""
@@ -32,12 +33,9 @@ MESSAGE = np.dtype(
 MAX_BYTES = 65_536
 """The largest content, as JSON."""
 
-MAX_DEPTH = 32
-"""How deep lists and dicts may be nested."""
-
 ALLOWED = (
     "a message holds None, True and False, numbers, text, arrays of these, and lists, tuples and "
-    "dicts (with text as keys) of these"
+    "dicts of these"
 )
 
 
@@ -63,50 +61,32 @@ def as_text(content: Any) -> str:
     >>> as_text({"goal": (1.5, 2), "free": True})
     '{"goal":[1.5,2],"free":true}'
     """
-    plain = _plain(content, "content", ())
     try:
-        text = json.dumps(plain, ensure_ascii=False, separators=(",", ":"))
+        text = json.dumps(content, ensure_ascii=False, separators=(",", ":"), default=_of_numpy)
         size = len(text.encode())
-    except UnicodeEncodeError:
-        raise _unfit("content", content, "half a character, which no file can hold") from None
-    except ValueError:  # so that it can't be shown, either
-        raise LawError("robot.send: content has a whole number of too many digits") from None
+    except (TypeError, ValueError, RecursionError) as error:
+        raise LawError(
+            f"robot.send: {shown(content)} can't be recorded: {one_line(error)}; {ALLOWED}"
+        ) from error
     if size > MAX_BYTES:
-        raise _unfit("content", content, f"{size} bytes, of at most {MAX_BYTES}")
+        raise LawError(f"robot.send: the content has {size} bytes, of at most {MAX_BYTES}")
     return text
 
 
-def _plain(value: Any, where: str, within: tuple[Any, ...]) -> Any:
-    """Return a content, or the part of it at `where`, as None, bools, numbers, text, lists, dicts.
-
-    within: the lists and dicts around it.
-    """
-    if isinstance(value, np.generic):
-        value = float(value) if isinstance(value, np.floating) else value.item()
-    if value is None or isinstance(value, bool):
-        return value
-    for kind in (int, float, str):
-        if isinstance(value, kind):
-            return kind(value)
-    if isinstance(value, np.ndarray) and value.dtype.kind in "biufU":
+def _of_numpy(value: Any) -> Any:
+    """Return an array as lists, or a number of numpy as one of Python."""
+    if isinstance(value, np.ndarray | np.generic) and value.dtype.kind in "biufU":
         return value.astype(float).tolist() if value.dtype.kind == "f" else value.tolist()
-    if not isinstance(value, (list, tuple, dict)):
-        raise _unfit(where, value, ALLOWED)
-    if any(value is outer for outer in within):
-        raise _unfit(where, value, "it holds itself")
-    if len(within) == MAX_DEPTH:
-        raise _unfit(where, value, f"more than {MAX_DEPTH} lists and dicts in each other")
-    within = (*within, value)
-    if not isinstance(value, dict):
-        return [_plain(item, f"{where}[{i}]", within) for i, item in enumerate(value)]
-    for key in value:
-        if not isinstance(key, str):
-            raise _unfit(f"a key of {where}", key, ALLOWED)
-    return {str(k): _plain(item, f"{where}[{k!r}]", within) for k, item in value.items()}
+    raise TypeError(f"it holds {shown(value)}")
 
 
-def _unfit(where: str, value: Any, why: str) -> LawError:
-    return LawError(f"robot.send: {where} = {shown(value)} can't be recorded: {why}")
+def packed(contents: Sequence[str]) -> dict[str, NDArray[Any]]:
+    """Return the texts of messages as two columns: all bytes in turn, and how many each has."""
+    texts = [text.encode() for text in contents]
+    return {
+        "contents": np.frombuffer(b"".join(texts), dtype=np.uint8),
+        "content_sizes": np.array([len(text) for text in texts], dtype=np.int64),
+    }
 
 
 def as_of(messages: NDArray[np.void], time: float) -> NDArray[np.void]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NoReturn
+from typing import Any, ClassVar, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,7 @@ from mars2d.core.description import whole
 from mars2d.core.errors import InputError, LawError, shown
 from mars2d.core.scene import Scene
 from mars2d.core.usercode import called
-from mars2d.record.columns import Column, DiskError, Storage, Texts, blocks
+from mars2d.record.columns import Column
 from mars2d.record.contact import CONTACT
 from mars2d.record.energy import WORK
 from mars2d.record.interventions import Intervention
@@ -65,46 +65,45 @@ class Recorder:
     """Writes the rows of one run.
 
     scenario: the one at the start. rows: how many there are. sensor_robots: the robots that carry
-    each sensor that is recorded.
+    each sensor that is recorded. keeps: whether it writes anything.
     """
+
+    keeps: ClassVar[bool] = True
 
     def __init__(
         self,
         scenario: Scenario,
-        storage: Storage = Column,
         versions: Callable[[], Mapping[str, str]] = dict,
         options: Mapping[str, Any] | None = None,
     ) -> None:
         """Make the columns for the robots and sensors of a scenario.
 
-        storage: makes columns, in memory or in files. versions: returns the versions of the
-        software on which the numbers depend, for the record. options: the options that the
-        experiment was opened with, for the record.
+        versions: returns the versions of the software on which the numbers depend, for the record.
+        options: the options that the experiment was opened with, for the record.
         """
         self.versions, self.options = versions, dict(options or {})
         n, props = len(scenario.robots), len(scenario.props)
         capacity = min(scenario.last_iteration + 1, 4096)
         self._columns = {
-            "time": storage((), float, capacity),
-            "pose": storage((3, n), float, capacity),
-            "command": storage((scenario.inputs, n), float, capacity),
-            "command_time": storage((), float, capacity),
-            "prop_pose": storage((3, props), float, capacity),
-            "effort": storage((n,), float, capacity),
-            "velocity": storage((3, n), float, capacity),
-            "prop_velocity": storage((3, props), float, capacity),
-            "work": storage((len(WORK),), float, capacity),
+            "time": Column((), float, capacity),
+            "pose": Column((3, n), float, capacity),
+            "command": Column((scenario.inputs, n), float, capacity),
+            "command_time": Column((), float, capacity),
+            "prop_pose": Column((3, props), float, capacity),
+            "effort": Column((n,), float, capacity),
+            "velocity": Column((3, n), float, capacity),
+            "prop_velocity": Column((3, props), float, capacity),
+            "work": Column((len(WORK),), float, capacity),
         }
         self._places: list[tuple[str, NDArray[Any]]] = []  # where rows of columns are written
         self._room = 0  # the number of rows that all of them have
         self._capacity = capacity
-        self._storage = storage
         self.scenario = scenario
         self._sensors: dict[str, Column] = {}
-        self._contacts = storage((), CONTACT, 64)
-        self._messages = storage((), MESSAGE, 64)
+        self._contacts = Column((), CONTACT, 64)
+        self._messages = Column((), MESSAGE, 64)
         self._contact_count, self._message_count, self._longest_flight = 0, 0, 0.0
-        self._contents = Texts(storage)
+        self._contents: list[str] = []
         self.rows = 0
         self.sensor_robots: dict[str, tuple[int, ...]] = {}
         self._blamed: dict[str, called] = {}  # for an error in a sensor's readings
@@ -138,7 +137,7 @@ class Recorder:
         given = _as_reading(name, values)
         column = self._sensors.get(name)
         if column is None:
-            column = self._sensors[name] = self._storage(given.shape, given.dtype, self._capacity)
+            column = self._sensors[name] = Column(given.shape, given.dtype, self._capacity)
         if given.shape != column.shape or given.dtype != column.dtype:
             raise LawError(
                 f"sensor {name!r} read {shown(values)}: the shape and kind of a reading can't "
@@ -196,7 +195,7 @@ class Recorder:
 
     def upto(self, rows: int, contacts: int, messages: int, contents: int) -> Recorder:
         """Return a recorder in memory that has written no more than this; see `counts`."""
-        begun = Recorder(self.scenario, Column, self.versions, self.options)
+        begun = Recorder(self.scenario, self.versions, self.options)
         begun.rows, begun._longest_flight = rows, self._longest_flight
         for name, column in self._sensors.items():
             begun._sensors[name] = Column(column.shape, column.dtype, self._capacity)
@@ -206,8 +205,7 @@ class Recorder:
         begun.write_contacts(self._contacts.upto(contacts))
         begun._messages.write_block(0, self._messages.upto(messages))
         begun._message_count = messages
-        for text in self._contents[:contents]:
-            begun._contents.append(text)
+        begun._contents = self._contents[:contents]
         return begun
 
     def row(self, row: int) -> tuple[dict[str, Any], dict[str, Any]]:
@@ -240,8 +238,8 @@ class Recorder:
             sensors=self.sensors(),
             sensor_robots={k: v for k, v in self.sensor_robots.items() if k in self._sensors},
             contacts=self.contacts(),
-            messages=self._messages_as_of(now),
-            contents=self._contents.snapshot(),
+            messages=as_of(self._messages.upto(self._message_count), now),
+            contents=tuple(self._contents),
             over_message=whole(over_message),
             finished=finished,
             filename=whole(filename),
@@ -251,24 +249,11 @@ class Recorder:
             options=self.options,
         )
 
-    def _messages_as_of(self, now: float) -> NDArray[np.void]:
-        """Return a copy of all messages, with their status at a time, s."""
-        try:
-            return self._copied_messages(self._storage, now)
-        except DiskError:  # has ended the run, whose record must not be lost
-            return self._copied_messages(Column, now)
-
-    def _copied_messages(self, storage: Storage, now: float) -> NDArray[np.void]:
-        copied = storage((), MESSAGE, self._message_count)
-        count = 0
-        for block in blocks(self._messages.upto(self._message_count)):
-            copied.write_block(count, as_of(block, now))
-            count += len(block)
-        return copied.upto(count)
-
 
 class Unrecorded(Recorder):
     """Writes nothing, for worlds that keep no record, such as those of learners and forks."""
+
+    keeps: ClassVar[bool] = False
 
     def write(
         self, readings: Mapping[str, Sequence[Any] | NDArray[Any]], **columns: Float | float

@@ -15,13 +15,12 @@ from numpy.typing import NDArray
 from mars2d.core.arrays import sealed
 from mars2d.core.errors import InputError, counted, nearest
 from mars2d.core.scene import Scene
-from mars2d.record.columns import Texts, blocks
-from mars2d.record.contact import CONTACT, count_meetings, pair_forces, rows_of
+from mars2d.record.contact import CONTACT, met, pair_forces, rows_of
 from mars2d.record.energy import Energy, Momentum, energy_of, momentum_of
 from mars2d.record.frame import Frame
 from mars2d.record.impacts import impacts
 from mars2d.record.interventions import Change, Intervention, Leap, leaps_of
-from mars2d.record.message import MESSAGE, in_flight
+from mars2d.record.message import MESSAGE, in_flight, packed
 from mars2d.scenario.scenario import Scenario
 
 Float = NDArray[np.float64]
@@ -151,7 +150,7 @@ class Rows:
     @property
     def collisions(self) -> int:
         """How many times two bodies came to touch that did not touch before."""
-        return count_meetings(blocks(self.contacts))
+        return int(met(self.contacts).sum())
 
     def columns(self) -> dict[str, NDArray[Any]]:
         """Return all columns as plain arrays, by their names in files.
@@ -166,8 +165,7 @@ class Rows:
         columns |= {f"contact:{name}": self.contacts[name] for name in CONTACT.names or ()}
         if self.contents:
             columns |= {f"message:{name}": self.messages[name] for name in MESSAGE.names or ()}
-            texts = Texts.of(self.contents)
-            columns |= {"contents": texts.data, "content_sizes": texts.sizes}
+            columns |= packed(self.contents)
         return columns
 
     def frame(self, row: int) -> Frame:
@@ -251,7 +249,6 @@ def digest_of(columns: Mapping[str, NDArray[Any]], over_message: str) -> str:
     sha = hashlib.sha256()
     for name, column in columns.items():
         sha.update(f"{name} {column.dtype.str} {column.shape} ".encode())
-        for block in blocks(column):
-            sha.update(block.tobytes())
+        sha.update(column.tobytes())
     sha.update(over_message.encode())
     return sha.hexdigest()

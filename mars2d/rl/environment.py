@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.extras import extra
-from mars2d.rl.episode import Episode, Law, Reward, Source
-from mars2d.rl.screen import MODES, Live, Screen
+from mars2d.rl.episode import Episode, Source
+from mars2d.rl.screen import MODES, Given, Live
 
 with extra("rl", "environments need gymnasium"):
     import gymnasium
@@ -40,13 +39,7 @@ class Environment(Live, gymnasium.Env[Row, Row]):
     Box(-1.0, 1.0, (2,), float32)
 
     experiment: a file, the name of an example, or a Scenario. robot: who learns: a name, an index,
-    or a game's role, of which the first robot learns. reward: called after each step with the world
-    and the robot; by default 1 when the robot's role has won and -1 when it has lost; a robot that
-    is out of a game before its end gets -1, and 1 if it is safe. It may end the episode by
-    ``world.stop(why)``. laws: of others, by name or role, in place of their own: functions or
-    files. options: of the experiment, as in `mars2d.run`. render_mode: "human" shows a window,
-    "rgb_array" lets `render` return a picture. size: of both, pixels. record: whether to keep a
-    record, which `record` then returns.
+    or a game's role, of which the first robot learns. given: see `mars2d.rl.screen.Given`.
 
     An observation is what the robot's law may see, see `mars2d.scenario.observation.Observation`;
     an action is a command in shares of the drive's bounds, `Drive.bounds`, from -1 to 1. An episode
@@ -63,23 +56,12 @@ class Environment(Live, gymnasium.Env[Row, Row]):
         self,
         experiment: Source,
         robot: str | int = 0,
-        *,
-        reward: Reward | None = None,
-        laws: Mapping[str, Law] | None = None,
-        options: Mapping[str, Any] | None = None,
-        render_mode: str | None = None,
-        size: tuple[int, int] = (640, 480),
-        record: bool = False,
+        **given: Unpack[Given],
     ) -> None:
-        self._screen = Screen(render_mode, size)
-        self.render_mode = render_mode
-        self._episode = Episode(experiment, robot, laws, reward, options, record)
-        self.metadata = {
-            "render_modes": MODES, "render_fps": 1 / self._episode.scenario.sampling_time,
-        }  # fmt: skip
-        self.observation_space = observation_space(self._episode, 0)
-        self.action_space = action_space(self._episode, 0)
-        self._learner = self._episode.learners[0]
+        episode = self._begin(experiment, robot, **given)
+        self.observation_space = observation_space(episode, 0)
+        self.action_space = action_space(episode, 0)
+        self._learner = episode.learners[0]
 
     @property
     def policy_metadata(self) -> str:

@@ -95,7 +95,7 @@ class Episode:
     @property
     def record(self) -> Record:
         """The record so far. Raises InputError where none is kept."""
-        if self.world.simulation.storage is None:
+        if not self.world.recorder.keeps:
             raise InputError("no record is kept: make the environment with record=True")
         return self.world.record
 

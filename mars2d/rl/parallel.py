@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from mars2d.core.errors import InputError, nearest, shown
 from mars2d.core.extras import extra
 from mars2d.rl.environment import action_space, observation_space
-from mars2d.rl.episode import Episode, Law, Reward, Source
-from mars2d.rl.screen import MODES, Live, Screen
+from mars2d.rl.episode import Source
+from mars2d.rl.screen import MODES, Given, Live
 
 with extra("rl", "environments of several learners need pettingzoo"):
     from gymnasium.spaces import Box
@@ -40,23 +40,12 @@ class ParallelEnvironment(Live, ParallelEnv[str, Row, Row]):
         self,
         experiment: Source,
         robots: Sequence[str | int] | None = None,
-        *,
-        reward: Reward | None = None,
-        laws: Mapping[str, Law] | None = None,
-        options: Mapping[str, Any] | None = None,
-        render_mode: str | None = None,
-        size: tuple[int, int] = (640, 480),
-        record: bool = False,
+        **given: Unpack[Given],
     ) -> None:
-        self._screen = Screen(render_mode, size)
-        self.render_mode = render_mode
-        self._episode = episode = Episode(experiment, robots, laws, reward, options, record)
+        episode = self._begin(experiment, robots, **given)
         self.possible_agents = [*episode.names]
         self._places = {name: k for k, name in enumerate(episode.names)}
         self.agents: list[str] = []
-        self.metadata = {
-            **self.metadata, "render_fps": 1 / episode.scenario.sampling_time,
-        }  # fmt: skip
         count = range(len(episode.names))
         self.observation_spaces = {episode.names[k]: observation_space(episode, k) for k in count}
         self.action_spaces = {episode.names[k]: action_space(episode, k) for k in count}

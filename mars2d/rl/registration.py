@@ -8,7 +8,6 @@ IDS = {
     "mars2d/Pursuit-v0": "pursuit",
     "mars2d/Push-v0": "push",
     "mars2d/Sumo-v0": "sumo",
-    "mars2d/Coverage-v0": "coverage",
 }
 """The names of the environments, and the functions that make them."""
 

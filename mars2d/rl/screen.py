@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, TypedDict, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,7 @@ from mars2d.core.description import wrong
 from mars2d.core.errors import likely
 from mars2d.output.raster import require_pygame
 from mars2d.record.frame import Frame
-from mars2d.rl.episode import Episode
+from mars2d.rl.episode import Episode, Law, Reward, Source
 from mars2d.world.record import Record
 from mars2d.world.world import World
 
@@ -74,11 +75,40 @@ class Screen:
             self._window = None
 
 
+class Given(TypedDict, total=False):
+    """What all environments take besides the experiment and who learns, all of it optional.
+
+    reward: called after each step with the world and the robot; by default 1 when the robot's role
+    has won and -1 when it has lost; a robot that is out of a game before its end gets -1, and 1 if
+    it is safe. It may end the episode by ``world.stop(why)``. laws: of others, by name or role, in
+    place of their own: functions or files. options: of the experiment, as in `mars2d.run`.
+    render_mode: "human" shows a window, "rgb_array" lets `render` return a picture. size: of both,
+    pixels, by default (640, 480). record: whether to keep a record, which `record` then returns.
+    """
+
+    reward: Reward | None
+    laws: Mapping[str, Law] | None
+    options: Mapping[str, Any] | None
+    render_mode: str | None
+    size: tuple[int, int]
+    record: bool
+
+
 class Live:
     """What environments of one episode have in common: its world, its record and its picture."""
 
-    _episode: Episode
-    _screen: Screen
+    def _begin(self, experiment: Source, learners: Any, **given: Unpack[Given]) -> Episode:
+        self.render_mode = given.get("render_mode")
+        self._screen = Screen(self.render_mode, given.get("size", (640, 480)))
+        self._episode = Episode(
+            experiment, learners, given.get("laws"), given.get("reward"), given.get("options"),
+            given.get("record", False),
+        )  # fmt: skip
+        self.metadata = {
+            "name": "mars2d", "render_modes": MODES, "is_parallelizable": True,
+            "render_fps": 1 / self._episode.scenario.sampling_time,
+        }  # fmt: skip
+        return self._episode
 
     @property
     def world(self) -> World:

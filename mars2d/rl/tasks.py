@@ -1,4 +1,4 @@
-"""The environments that are registered with gymnasium: pursuit, push, sumo and coverage.
+"""The environments that are registered with gymnasium: pursuit, push and sumo.
 
 Each is a function that makes an `Environment`, or with ``num_envs`` a `VectorEnvironment`; more
 arguments are passed on to it.
@@ -9,7 +9,6 @@ from __future__ import annotations
 from math import hypot
 from typing import Any
 
-from mars2d.addons import Voronoi
 from mars2d.bodies import Box, Holonomic
 from mars2d.core.plane import Outline
 from mars2d.rl.environment import Environment
@@ -114,28 +113,3 @@ def sumo(**given: Any) -> Environment | VectorEnvironment:
     inside = RandomStarts(area=_rectangle(-0.9, 0.9, -0.9, 0.9), least_distance=0.8)
     options = {"sampling_time": 0.1, "random_starts": [inside], **given.pop("options", {})}
     return _made("sumo", "red", **{"reward": _shoving, "options": options, **given})
-
-
-def _covering(world: World, robot: RobotView) -> float:
-    """Return by how much the cost of coverage H has fallen in the last step, m^4."""
-    return _gain(robot, world.addons.voronoi.now.cost)
-
-
-def coverage(**given: Any) -> Environment | VectorEnvironment:
-    """Return an environment in which a robot joins four that stand in a square, for 20 s.
-
-    All starts are random. Observation (12,), action (vx, vy). Reward: by how much the cost H of
-    coverage falls, m^4.
-    """
-    robot = Robot(diameter=0.15, drive=Holonomic(), sees="positions")
-    scenario = Scenario(
-        title="Coverage",
-        robots=[robot] * 5,
-        random_starts=[RandomStarts(least_distance=0.5, heading=0)],
-        workspace=_rectangle(0, 4, 0, 4),
-        on_exit="wall",
-        sampling_time=0.2,
-        stop_time=20.0,
-        addons=[Voronoi()],
-    )
-    return _made(scenario, 0, **{"reward": _covering, **given})

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import partial
-from typing import Any
+from typing import Any, Unpack
 
 from mars2d.core.description import wrong
 from mars2d.core.extras import extra
 from mars2d.rl.environment import Environment, Row
-from mars2d.rl.episode import Law, Reward, Source
+from mars2d.rl.episode import Source
+from mars2d.rl.screen import Given
 from mars2d.world.abreast import Abreast
 
 with extra("rl", "environments need gymnasium"):
@@ -43,24 +43,14 @@ class VectorEnvironment(SyncVectorEnv):
         num_envs: int = 1,
         *,
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
-        reward: Reward | None = None,
-        laws: Mapping[str, Law] | None = None,
-        options: Mapping[str, Any] | None = None,
-        render_mode: str | None = None,
-        size: tuple[int, int] = (640, 480),
-        record: bool = False,
+        **given: Unpack[Given],
     ) -> None:
         if num_envs < 1:
             raise wrong("num_envs", num_envs, "a number of worlds, at least 1")
-        make = partial(
-            _Member, experiment, robot, reward=reward, laws=laws, options=options, size=size,
-            record=record,
-        )  # fmt: skip
-        others = None if render_mode == "human" else render_mode
-        modes = [render_mode, *[others] * (num_envs - 1)]
-        super().__init__(
-            [partial(make, render_mode=mode) for mode in modes], autoreset_mode=autoreset_mode
-        )
+        first = other = partial(_Member, experiment, robot, **given)
+        if given.get("render_mode") == "human":
+            other = partial(first, render_mode=None)
+        super().__init__([first, *[other] * (num_envs - 1)], autoreset_mode=autoreset_mode)
         self._abreast = Abreast()
 
     def step(self, actions: Any) -> Any:

@@ -22,7 +22,7 @@ from mars2d.core.usercode import called, quiet
 from mars2d.scenario import parameters, toml_file
 from mars2d.scenario.code_file import law_in, line_in, module_in
 from mars2d.scenario.examples import GAME, examples, experiment_name
-from mars2d.scenario.options import map_in, override, popped_map, reading_options, with_map
+from mars2d.scenario.options import override
 from mars2d.scenario.parameters import PREFIX, Parameter
 from mars2d.scenario.policy import SUFFIX
 from mars2d.scenario.prediction import Prediction
@@ -192,8 +192,7 @@ def open_experiment(
     source: a file (.py, or .toml of a scenario), the name of a shipped example, a module, or a
     Scenario. options: values by dotted names of fields, by parameters of a scenario function, or
     by arguments of laws, for example ``laws.follow.gain``.
-    ``map`` is a file whose walls replace those of the experiment, or a Map; options such as
-    ``map.unit`` say how to read it. control: the law of the team, instead of the experiment's own.
+    control: the law of the team, instead of the experiment's own.
     seed: of the run. A scenario function with a parameter ``seed`` gets it unless the options set
     that, so that it can draw starts at random. Raises InputError, which points at file and line.
     """
@@ -204,12 +203,7 @@ def open_experiment(
     with files_read() as files:
         plain = _opened(source, rest, control, seed)
         try:
-            file = Path(getattr(source, "__file__", None) or plain.source.path or "")
-            chart = popped_map(rest, file)
-            if chart is None:
-                scenario = override(plain.scenario, rest)
-            else:
-                scenario = with_map(plain.scenario, map_in(chart, file), rest)
+            scenario = override(plain.scenario, rest)
             scenario = scenario if seed is None else scenario.started(seed)
             experiment = replace(plain, scenario=scenario)
             if of_laws:
@@ -364,9 +358,6 @@ def _scenario_of(
     scenario, function = module.scenario, None
     if callable(scenario) and not isinstance(scenario, (type, Scenario)):
         function, takes = scenario, inspect.signature(scenario).parameters
-        if "map" in takes and any(str(name).partition(".")[0] == "map" for name in options):
-            file, default = Path(getattr(module, "__file__", "")), takes["map"].default
-            options["map"] = popped_map(options, file, default)
         if seed is not None and "seed" in takes:
             options.setdefault("seed", seed)
         scenario = _call_scenario(function, options)
@@ -380,9 +371,8 @@ def _call_scenario(function: Callable[..., Any], options: dict[str, Any]) -> Any
     chosen = {name: options.pop(name) for name in list(options) if name in takes}
     known_fields = [f.name for f in fields(Scenario)]
     for name in options:
-        if name.partition(".")[0] not in [*known_fields, "map"]:
-            known = [*takes, *known_fields, *(f"map.{option}" for option in reading_options())]
-            raise InputError(f"there is no option {name!r}{nearest(name, known)}")
+        if name.partition(".")[0] not in known_fields:
+            raise InputError(f"there is no option {name!r}{nearest(name, [*takes, *known_fields])}")
     for name, p in takes.items():
         several = p.kind in (p.VAR_POSITIONAL, p.VAR_KEYWORD)
         if p.default is p.empty and name not in chosen and not several:

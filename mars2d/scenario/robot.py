@@ -8,7 +8,7 @@ from math import inf
 from typing import Any, Self
 
 from mars2d.bodies.drives.base import Drive
-from mars2d.bodies.drives.unicycle import Unicycle
+from mars2d.bodies.drives.wheeled import Unicycle
 from mars2d.bodies.rigid import Inertia, Rigid, Surface, inertia_of
 from mars2d.core import checks
 from mars2d.core.arithmetic import cosine_sine

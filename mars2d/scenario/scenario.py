@@ -31,7 +31,6 @@ from mars2d.scenario.neighbours import Everyone, Neighbourhood, neighbourhood
 from mars2d.scenario.random_starts import RandomStarts, Room, poses_of, room_of
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.stop_on import CONTACT, Pairs, bodies_named, stop_on
-from mars2d.scenario.team_colors import team_colors
 
 PHYSICS = ("contact", "stop", "ideal")
 
@@ -416,7 +415,8 @@ class Scenario(Description):
     @cached_property
     def colors(self) -> tuple[str, ...]:
         """The robots' colours, each its own or one of the animation's base colours."""
-        return team_colors(self.robots, self.animation.base_colors)
+        base = self.animation.base_colors
+        return tuple(robot.color or base[i % len(base)] for i, robot in enumerate(self.robots))
 
 
 def _index_of(field: str, kind: str, wanted: str | int, names: list[str]) -> int:

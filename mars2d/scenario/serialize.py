@@ -10,7 +10,7 @@ from mars2d.addons.base import Addon
 from mars2d.addons.communication import Burst, Communication
 from mars2d.addons.map import Map
 from mars2d.bodies.drives.base import Drive
-from mars2d.bodies.drives.unicycle import Unicycle
+from mars2d.bodies.drives.wheeled import Unicycle
 from mars2d.bodies.joints.base import Joint
 from mars2d.bodies.props.base import Prop
 from mars2d.bodies.props.solid import Solid
@@ -217,7 +217,9 @@ def _to_description(value: Any, missing: list[str]) -> Any:
         if value["own"] == "prop":
             missing.extend(f"joint {joint['type']} of {value['type']}" for joint in value["joints"])
         return _stand_in(value["own"], fields)
-    return _kinds()[value["type"]](**fields)
+    kind = _kinds()[value["type"]]
+    known = kind.__dataclass_fields__  # a record from before may say of others that they are off
+    return kind(**{name: each for name, each in fields.items() if each or name in known})
 
 
 def _is_function(value: Any) -> bool:

@@ -92,29 +92,19 @@ class Surroundings(Protocol):
     def ray(self, start: Point, angle: float, length: float, ignore: int) -> float:
         """Return how far a ray goes until the first surface, metres; inf when nothing is hit."""
 
-    def rays(self, start: Point, angles: Float, length: ArrayLike, ignore: int) -> Float:
-        """Return how far rays at angles (k,) go, (k,) metres; inf where nothing is hit.
-
-        length: of all rays, or (k,). A ray that starts inside a robot or prop goes 0 m. Obstacles
-        are outlines: within one of them a ray goes on to its edge.
-        """
-
-    def sight(
-        self, start: Point, angles: Float, length: ArrayLike, ignore: int
-    ) -> tuple[Float, Int]:
-        """Return how far rays go, as `rays`, and which body each hits, (k,): NOTHING if none."""
-
     def scans(self, poses: Float, bearings: Float, length: ArrayLike, ignore: ArrayLike) -> Float:
-        """Return how far rays of many robots go, (m, k) metres, as `rays` says; much quicker.
+        """Return how far rays of robots go, (m, k) metres; inf where nothing is hit.
 
         poses: where each one's rays start, and which way it looks (3, m). bearings: of the rays
-        from there (k,) rad. ignore: the robots that ask (m,).
+        from there (k,) rad. length: of all rays, or (k,). ignore: the robots that ask (m,). A ray
+        that starts inside a robot or prop goes 0 m. Obstacles are outlines: within one of them a
+        ray goes on to its edge.
         """
 
     def sights(
         self, poses: Float, bearings: Float, length: ArrayLike, ignore: ArrayLike
     ) -> tuple[Float, Int]:
-        """Return how far rays of many robots go, as `scans`, and which body each hits, (m, k)."""
+        """Return how far rays go, as `scans`, and which body each hits, (m, k): NOTHING if none."""
 
     def hidden(
         self, start: Point, points: Float, bodies: ArrayLike, ignore: int
@@ -269,10 +259,7 @@ class Sensor(Stateful):
         default=0.0, check=spread("a step"),
         doc="values are rounded to multiples of it",
     )  # fmt: skip
-    recorded: bool = flag(
-        default=True,
-        doc="whether it is recorded at each step; else it is measured only when a law reads it",
-    )
+    recorded: bool = flag(default=True, doc="whether its readings are kept in the record")
 
     @property
     def key(self) -> str:
@@ -296,15 +283,12 @@ class Sensor(Stateful):
             if quantity.kind == "flag" and (noise or step):
                 field, given = ("noise", noise) if noise else ("resolution", step)
                 raise wrong(f"{kind}.{field}", given, f"0: {quantity.name} is True or False")
-            if quantity.kind == "distance" and self.outliers and not hasattr(self, "range"):
+            far = {"distance": hasattr(self, "range"), "number": noise > 0}.get(quantity.kind, True)
+            if self.outliers and not far:
                 raise InputError(
                     f"{kind}.outliers = {self.outliers:g}: an outlier of {quantity.name} lies "
-                    f"anywhere within the range, and {kind} has no field range"
-                )
-            if quantity.kind == "number" and self.outliers and not noise:
-                raise InputError(
-                    f"{kind}.outliers = {self.outliers:g}: an outlier of {quantity.name} is ten "
-                    f"times as far off as its noise, which is 0: give {kind}.noise, too"
+                    f"anywhere within the range, or is ten times as far off as the noise: give "
+                    f"{kind} a field range, or {kind}.noise, too"
                 )
 
     # -- methods to override -------------------------------------------------------------------
@@ -341,13 +325,6 @@ class Sensor(Stateful):
     def shown(self, reading: Any) -> Any:
         """Return the value that a law finds under ``robot.sense``; by default the reading."""
         return reading
-
-    def sign(self, scene: Scene, color: str) -> str:  # noqa: ARG002
-        """Draw a sample of a reading for a legend; return its meaning, by default "": none.
-
-        The sign lies round (0, 0), within 12 points, in points.
-        """
-        return ""
 
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw the field of view and the reading for a robot at `pose` (3,); by default nothing."""
@@ -481,10 +458,29 @@ class Sensor(Stateful):
 
 
 class Scanner(Sensor):
-    """The base of sensors that read a team at once: `read` is `read_all` of a team of one."""
+    """The base of sensors that read a team at once: they write `scan` in place of `read`."""
 
     stays: ClassVar[bool] = True
+
+    def scan(self, poses: Float, robots: list[int], world: Surroundings) -> NDArray[Any]:
+        """Return the perfect readings (m, ...) of robots whose sensors are at poses (3, m).
+
+        robots: their indices.
+        """
+        raise NotImplementedError(
+            f"{type(self).__name__} needs a method scan(poses, robots, world)"
+        )
 
     def read(self, robot: Any, world: Surroundings, rng: np.random.Generator) -> Any:
         """Return the perfect reading now."""
         return self.read_all([robot], world, [rng])[0]
+
+    def read_all(
+        self,
+        robots: Sequence[Any],
+        world: Surroundings,
+        rngs: Sequence[np.random.Generator],  # noqa: ARG002
+    ) -> NDArray[Any]:
+        """Return the perfect readings of robots that carry such a sensor, one each."""
+        mine = [robot.index for robot in robots]
+        return self.scan(self.placed(world.pose.take(mine, axis=1)), mine, world)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from math import inf, pi
 from typing import Any, ClassVar, NoReturn
 
@@ -23,36 +23,14 @@ FAR = 50.0
 """A field of view that reaches further is not drawn to its end, metres."""
 
 
-class Sightings(Mapping[str, Sighting]):
+class Sightings(dict[str, Sighting]):
     """The sighting of each beacon by its name: range inf and bearing nan where it is not seen.
 
     Raises UnknownNameError for a name that no beacon has.
     """
 
-    def __init__(self, sightings: Mapping[str, Sighting]) -> None:
-        self._sightings = dict(sightings)
-
-    def __getitem__(self, name: str) -> Sighting:
-        if name not in self._sightings:
-            raise UnknownNameError(f"there is no beacon {name!r}{nearest(name, self._sightings)}")
-        return self._sightings[name]
-
-    def __getattr__(self, name: str) -> NoReturn:
-        known = [*vars(self).get("_sightings", [])]  # none in a copy that is not yet filled
-        hint = f"write [{name!r}]" if name in known else f"write [name]{nearest(name, known)}"
-        raise UnknownNameError(f"beacons are found by their names: {hint}")
-
-    def __contains__(self, name: object) -> bool:
-        return name in self._sightings
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._sightings)
-
-    def __len__(self) -> int:
-        return len(self._sightings)
-
-    def __repr__(self) -> str:
-        return repr(self._sightings)
+    def __missing__(self, name: str) -> NoReturn:
+        raise UnknownNameError(f"there is no beacon {name!r}{nearest(name, self)}")
 
 
 def _known(beacons: Mapping[str, Point]) -> list[str]:
@@ -120,24 +98,12 @@ class Beacon(Scanner):
                     f"{nearest(name, known)}"
                 )
 
-    def read_all(
-        self,
-        robots: Sequence[RobotLike],
-        world: Surroundings,
-        rngs: Sequence[np.random.Generator],  # noqa: ARG002
-    ) -> Float:
+    def scan(self, poses: Float, robots: list[int], world: Surroundings) -> Float:
         """Return rows (m, k, 2) of range and bearing, (inf, nan) for a beacon that is not seen."""
-        there, mine = world.beacons, [robot.index for robot in robots]
+        there, sight = world.beacons, None if self.through_walls else world
         points = np.array([_place(name, there) for name in self._beacons])
-        return sighted(
-            self.placed(world.pose[:, mine]),
-            points,
-            self.range,
-            self.field_of_view,
-            np.full(len(points), NOTHING),
-            mine,
-            None if self.through_walls else world,
-        )
+        nobody = np.full(len(points), NOTHING)
+        return sighted(poses, points, self.range, self.field_of_view, nobody, robots, sight)
 
     def measured(self, reading: Float, rng: Random) -> Float:
         """Return perfect readings with errors; a beacon that is not seen stays unseen."""
@@ -148,12 +114,6 @@ class Beacon(Scanner):
         """Return the sighting of each beacon, by name."""
         rows = zip(self._beacons, reading.tolist(), strict=True)
         return Sightings({name: Sighting(*row) for name, row in rows})
-
-    def sign(self, scene: Scene, color: str) -> str:
-        """Draw a line to each beacon that is seen."""
-        scene.line([(-11.0, 0.0), (8.0, 0.0)], stroke=faded(color, 0.7))
-        scene.circle((8.0, 0.0), 0.0, fill="#ffffff", stroke=color, width=1.2, pixels=3.0)
-        return "range and bearing"
 
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw the field of view, and a line to each beacon where it is measured to be."""

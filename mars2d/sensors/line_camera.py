@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import cached_property
 from math import isnan, nan, pi
 from typing import Any, ClassVar
@@ -11,7 +10,6 @@ import numpy as np
 
 from mars2d.core.arithmetic import cosines_sines
 from mars2d.core.description import integer, number
-from mars2d.core.interfaces import RobotLike
 from mars2d.core.quantity import COLOR, Quantity
 from mars2d.core.scene import Scene, color_of, faded, rgb
 from mars2d.geometry.bearings import beam_angles
@@ -40,15 +38,9 @@ class LineCamera(Scanner):
         """The bearings of the pixels (pixels,): radians from the sensor's heading."""
         return beam_angles(self.pixels, self.field_of_view)
 
-    def read_all(
-        self,
-        robots: Sequence[RobotLike],
-        world: Surroundings,
-        rngs: Sequence[np.random.Generator],  # noqa: ARG002
-    ) -> Float:
+    def scan(self, poses: Float, robots: list[int], world: Surroundings) -> Float:
         """Return the colours (m, pixels, 3) that the pixels see."""
-        mine = [robot.index for robot in robots]
-        _, bodies = world.sights(self.placed(world.pose[:, mine]), self.angles, self.range, mine)
+        _, bodies = world.sights(poses, self.angles, self.range, robots)
         seen, which = np.unique(bodies, return_inverse=True)
         missing = (nan, nan, nan)
         colors = [missing if b == NOTHING else rgb(world.color(b)) for b in seen.tolist()]

@@ -28,16 +28,6 @@ def _scales(name: str, value: object) -> tuple[float, float]:
     raise wrong(name, value, expected)
 
 
-@accepts({"type": "number", "minimum": 0, "maximum": 1e3})
-def _step(name: str, value: object) -> float:
-    """Check a step that travels can be divided by, or 0."""
-    expected = "0, or a number >= 1e-09 and <= 1000"
-    step = real(name, value, expected)
-    if step != 0 and not 1e-9 <= step <= 1e3:
-        raise wrong(name, value, expected)
-    return step
-
-
 class Odometry(Sensor):
     """Estimates its own pose from the turning of its wheels: x [m], y [m], theta [rad].
 
@@ -76,10 +66,6 @@ class Odometry(Sensor):
         default=1.0, low=1e-3, high=1e3,
         doc="assumed over true distance of the wheels",
     )  # fmt: skip
-    encoder_step: float = entry(
-        default=0.0, check=_step, unit="m",
-        doc="travel of a rim between two ticks of its encoder; 0: no ticks",
-    )  # fmt: skip
     origin: str = choice(
         default="start", of=("start", "world"),
         doc="the frame of the estimate: the pose at the start, or the world",
@@ -97,8 +83,6 @@ class Odometry(Sensor):
         x, y, theta = robot.pose.tolist()
         self._estimate = (0.0, 0.0, 0.0) if self.origin == "start" else (x, y, theta)
         self._heading = theta
-        self._turned = [0.0, 0.0, 0.0]  # travel in all, metres: left, right, across
-        self._counted = [0.0, 0.0, 0.0]
 
     def on_step(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> None:
         """Add the turning of the wheels in the last control step."""
@@ -114,8 +98,6 @@ class Odometry(Sensor):
 
     def _roll(self, travel: list[float], rng: np.random.Generator) -> None:
         """Add the true travels of the wheels (left, right, across), metres."""
-        if self.encoder_step:
-            travel = [self._ticks(wheel, way) for wheel, way in enumerate(travel)]
         left, right, across = (
             travel[0] * self.wheel_scale[0],
             travel[1] * self.wheel_scale[1],
@@ -127,13 +109,6 @@ class Odometry(Sensor):
             left, right, across = left + off[0], right + off[1], across + off[2]
         spin = (right - left) / (2 * self._semiaxis * self.semiaxis_scale)
         self._estimate = _moved(self._estimate, (left + right) / 2, across, spin)
-
-    def _ticks(self, wheel: int, travel: float) -> float:
-        """Return how far a wheel's encoder has counted on, metres."""
-        self._turned[wheel] += travel
-        counted = round(self._turned[wheel] / self.encoder_step) * self.encoder_step
-        more, self._counted[wheel] = counted - self._counted[wheel], counted
-        return more
 
     def read(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> Float:  # noqa: ARG002
         """Return the estimate (3,)."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from math import pi
 from typing import Any, ClassVar
 
@@ -15,10 +14,10 @@ from mars2d.core.interfaces import RobotLike
 from mars2d.core.plane import WITHIN
 from mars2d.core.quantity import FLAG, Quantity
 from mars2d.core.scene import Scene, faded
-from mars2d.sensors.base import Float, Sensor, Surroundings, sight_angle
+from mars2d.sensors.base import Float, Scanner, Surroundings, sight_angle
 
 
-class Proximity(Sensor):
+class Proximity(Scanner):
     """Tells whether an obstacle or another robot is within range and field of view.
 
     The reading is True or False. range: metres from the sensor, which sits at the robot's pose (not
@@ -28,27 +27,20 @@ class Proximity(Sensor):
     """
 
     quantities: ClassVar[tuple[Quantity, ...]] = (FLAG,)
+    stays: ClassVar[bool] = False
 
     range: float = number(above=0, high=1e6, unit="m", doc="its range, from its mount")
     field_of_view: float = sight_angle(default=2 * pi, doc="the angle it sees, about the heading")
 
     def read(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> bool:
         """Return whether something is within range and field of view."""
-        return bool(self.read_all([robot], world, [rng])[0])
+        return bool(super().read(robot, world, rng))
 
-    def read_all(
-        self,
-        robots: Sequence[RobotLike],
-        world: Surroundings,
-        rngs: Sequence[np.random.Generator],  # noqa: ARG002
-    ) -> NDArray[np.bool_]:
+    def scan(self, poses: Float, robots: list[int], world: Surroundings) -> NDArray[np.bool_]:
         """Return whether something is within range and field of view of each robot, (m,)."""
-        mine = [robot.index for robot in robots]
-        poses = self.placed(world.pose.take(mine, axis=1)).T.tolist()
-        each = zip(poses, mine, strict=True)
+        each, reach = zip(poses.T.tolist(), robots, strict=True), self.range
         if self.field_of_view < 2 * pi:
             return np.array([self._sees(world, x, y, to, me) for (x, y, to), me in each])
-        reach = self.range
         return np.array([world.distance((x, y), reach, me) <= reach for (x, y, _), me in each])
 
     def _sees(self, world: Surroundings, x: float, y: float, theta: float, me: int) -> bool:
@@ -63,13 +55,6 @@ class Proximity(Sensor):
                 return True
         edges = (theta - half, theta + half)
         return any(world.ray((x, y), edge, self.range, me) <= self.range for edge in edges)
-
-    def sign(self, scene: Scene, color: str) -> str:  # noqa: ARG002
-        """Draw the sector in which something is seen."""
-        scene.sector(
-            (-7.0, 0.0, 0.0), 14.0, 1.2, fill=faded("#d55e00", 0.22), stroke=faded("#d55e00", 0.8)
-        )
-        return "something is near"
 
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw the field of view, filled while something is seen."""

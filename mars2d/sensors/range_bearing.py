@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from math import pi
 from typing import Any, ClassVar
 
 import numpy as np
 
 from mars2d.core.description import flag, number
-from mars2d.core.interfaces import RobotLike
 from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene, faded
 from mars2d.core.streams import Random
@@ -38,23 +36,11 @@ class RangeBearing(Scanner):
     through_walls: bool = flag(default=False, doc="whether it sees hidden robots")
     identity: bool = flag(default=True, doc="whether readings name the robot")
 
-    def read_all(
-        self,
-        robots: Sequence[RobotLike],
-        world: Surroundings,
-        rngs: Sequence[np.random.Generator],  # noqa: ARG002
-    ) -> Float:
+    def scan(self, poses: Float, robots: list[int], world: Surroundings) -> Float:
         """Return rows of range and bearing: of robot i, or without identity nearest first."""
-        mine, everyone = [robot.index for robot in robots], np.arange(world.pose.shape[1])
-        rows = sighted(
-            self.placed(world.pose[:, mine]),
-            world.pose[:2].T,
-            self.range,
-            self.field_of_view,
-            everyone,
-            mine,
-            None if self.through_walls else world,
-        )
+        others, everyone = world.pose[:2].T, np.arange(world.pose.shape[1])
+        sight = None if self.through_walls else world
+        rows = sighted(poses, others, self.range, self.field_of_view, everyone, robots, sight)
         return rows if self.identity else _nearest_first(rows)[:, :-1]  # not itself, never seen
 
     def measured(self, reading: Float, rng: Random) -> Float:
@@ -72,12 +58,6 @@ class RangeBearing(Scanner):
         if not self.identity:  # its rows are in order
             return tuple([Sighting(*row) for row, _ in near])
         return tuple(sorted([Sighting(apart, bearing, i) for (apart, bearing), i in near]))
-
-    def sign(self, scene: Scene, color: str) -> str:
-        """Draw a line to each target that is seen."""
-        scene.line([(-11.0, 0.0), (8.0, 0.0)], stroke=faded(color, 0.7))
-        scene.circle((8.0, 0.0), 0.0, fill="#ffffff", stroke=color, width=1.2, pixels=3.0)
-        return "range and bearing"
 
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw the field of view, and a line to each robot where it is measured to be."""

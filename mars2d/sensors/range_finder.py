@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import cached_property
 from math import pi
 from typing import Any, ClassVar
@@ -11,7 +10,6 @@ import numpy as np
 
 from mars2d.core.arithmetic import cosines_sines
 from mars2d.core.description import integer, number
-from mars2d.core.interfaces import RobotLike
 from mars2d.core.quantity import DISTANCE, Quantity
 from mars2d.core.scene import Scene, faded
 from mars2d.geometry.bearings import beam_angles
@@ -42,29 +40,15 @@ class RangeFinder(Scanner):
         """The bearings of the beams (beams,): radians from the sensor's heading."""
         return beam_angles(self.beams, self.field_of_view)
 
-    def read_all(
-        self,
-        robots: Sequence[RobotLike],
-        world: Surroundings,
-        rngs: Sequence[np.random.Generator],  # noqa: ARG002
-    ) -> Float:
+    def scan(self, poses: Float, robots: list[int], world: Surroundings) -> Float:
         """Return the distances (m, beams) to the first surfaces."""
-        mine = [robot.index for robot in robots]
-        return world.scans(self.placed(world.pose[:, mine]), self.angles, self.range, mine)
+        return world.scans(poses, self.angles, self.range, robots)
 
     @property
     def fan(self) -> Fan:
         """Its beams."""
         closed = self.field_of_view >= 2 * pi and self.beams > 2
         return Fan(self.angles, self.range, closed=closed)
-
-    def sign(self, scene: Scene, color: str) -> str:
-        """Draw a piece of the free area, and where it ends."""
-        scene.sector((-9.0, 0.0, 0.0), 16.0, 0.9, fill=faded(color, 0.15))
-        c, s = cosines_sines(np.array([-0.3, 0.0, 0.3]))
-        for place in np.column_stack([16 * c - 9, 16 * s]):
-            scene.circle(place, 0.0, fill=color, pixels=1.5)
-        return "a laser's hit"
 
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw the area that the beams sweep, and a dot where one has hit something."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Sequence
 from copy import deepcopy
-from functools import partial
 from types import SimpleNamespace
 from typing import Any, NoReturn
 
@@ -22,45 +21,21 @@ from mars2d.sensors.base import Sensor, Surroundings
 class Sense(SimpleNamespace):
     """The readings of one robot's sensors now, as attributes: ``robot.sense.proximity``."""
 
-    __slots__ = ("_due", "_names", "_robot")
+    __slots__ = ("_names", "_robot")
 
     def __init__(self, robot: str) -> None:
         super().__init__()
         self._robot = robot
         self._names: list[str] = []  # of all sensors
-        self._due: dict[str, Callable[[], Any]] = {}  # measured when asked for
-
-    def _expect(self, name: str, measure: Callable[[], Any]) -> None:
-        """Let a reading be measured when it is asked for."""
-        vars(self).pop(name, None)
-        self._due[name] = measure
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Sense:
         copied = memo[id(self)] = Sense(self._robot)
         memo[id(vars(self))] = vars(copied)  # in which devices write
-        copied._names, copied._due = [*self._names], deepcopy(self._due, memo)
+        copied._names = [*self._names]
         vars(copied).update({name: deepcopy(value, memo) for name, value in vars(self).items()})
         return copied
 
-    def __getattr__(self, name: str) -> Any:
-        if name not in self._due:
-            self._refuse(name)
-        vars(self)[name] = self._due[name]()
-        del self._due[name]
-        return vars(self)[name]
-
-    def __getitem__(self, name: Any) -> NoReturn:
-        raise LawError(f"robot.sense[{shown(name)}]: write robot.sense.{name}")
-
-    def __call__(self, *names: Any) -> NoReturn:
-        """Raise LawError: readings are attributes."""
-        name = names[0] if names else "NAME"
-        raise LawError(f"robot.sense({shown(name)}): write robot.sense.{name}")
-
-    def __dir__(self) -> list[str]:
-        return [*vars(self), *self._due]
-
-    def _refuse(self, name: str) -> NoReturn:
+    def __getattr__(self, name: str) -> NoReturn:
         if name in self._names:
             raise UnknownNameError(
                 f"sensor {name!r} has no reading now: at each control step sensors are read after "
@@ -69,6 +44,14 @@ class Sense(SimpleNamespace):
             )
         known = nearest(name, self._names) if self._names else "; it carries none"
         raise UnknownNameError(f"{self._robot} has no sensor {name!r}{known}")
+
+    def __getitem__(self, name: Any) -> NoReturn:
+        raise LawError(f"robot.sense[{shown(name)}]: write robot.sense.{name}")
+
+    def __call__(self, *names: Any) -> NoReturn:
+        """Raise LawError: readings are attributes."""
+        name = names[0] if names else "NAME"
+        raise LawError(f"robot.sense({shown(name)}): write robot.sense.{name}")
 
 
 class Device:
@@ -92,15 +75,13 @@ class Device:
         self.reading: Any = None
         self._shown: Any = None  # the value that a law finds
         self.view, self.world = robot, world
-        self._stream, self._name = stream, f"sensor {robot.name} {sensor.key}"
-        self.rng = stream(self._name)
-        self._sense: Sense = robot.sense
-        self._sense._names.append(self.key)
-        self.readings = vars(self._sense)
+        self.rng = stream(f"sensor {robot.name} {sensor.key}")
+        sense: Sense = robot.sense
+        sense._names.append(self.key)
+        self.readings = vars(sense)
         self.period = sensor.period(world.sampling_time)
         self.age = sensor.age(world.sampling_time)
         self._on_its_way: deque[tuple[int, Any]] = deque()
-        self.when_asked = not sensor.recorded and self.period == 1 and self.age == 0
         self.follows = type(sensor).on_step is not Sensor.on_step
         self._shows_more = type(sensor).shown is not Sensor.shown
         self._robot_name = str(robot.name)
@@ -115,12 +96,8 @@ class Device:
 
     def step(self, iteration: int) -> None:
         """Measure, if it is time, and show the latest reading that has arrived."""
-        if self.when_asked:
-            self.reading = None
-            self._sense._expect(self.key, partial(self._measured_when_asked, iteration))
-            return
         if iteration % self.period == 0:
-            self.send(self._measured(self.rng), iteration)
+            self.send(self._measured(), iteration)
         else:
             self.show(iteration)
 
@@ -142,19 +119,10 @@ class Device:
         else:
             self.readings[self.key] = self._shown
 
-    def close(self) -> None:
-        """Measure nothing more of this control step: things begin to move."""
-        self._sense._due.pop(self.key, None)
-
-    def _measured_when_asked(self, iteration: int) -> Any:
-        """Measure with a random stream of this step alone, so that asking changes nothing later."""
-        self._take(self._measured(self._stream(f"{self._name} {iteration}")))
-        return self._shown
-
-    def _measured(self, rng: np.random.Generator) -> Any:
+    def _measured(self) -> Any:
         try:
-            reading = self.sensor.read(self.view, self.world, rng)
-            return _kept(self.sensor.measured(reading, rng))
+            reading = self.sensor.read(self.view, self.world, self.rng)
+            return _kept(self.sensor.measured(reading, self.rng))
         except BaseException as error:
             self.reading_it.blame(error)
             raise
@@ -216,7 +184,6 @@ class Sensing:
         """Take all devices, robot by robot."""
         self.devices = devices
         self._following = [device for device in devices if device.follows]
-        self._when_asked = [device for device in devices if device.when_asked]
         groups = _grouped(devices)
         self._parts = [_Team(group) if len(group) > 1 else group[0] for group in groups]
         self._recorded: dict[str, list[Device]] = {}
@@ -241,11 +208,6 @@ class Sensing:
         for part in self._parts:
             part.step(iteration)
 
-    def close(self) -> None:
-        """Measure nothing more of this control step."""
-        for device in self._when_asked:
-            device.close()
-
     def recorded(self) -> dict[str, Sequence[Any] | NDArray[Any]]:
         """Return the readings to be recorded, robot by robot, by the sensors' names."""
         readings: dict[str, Sequence[Any] | NDArray[Any]] = {}
@@ -265,7 +227,7 @@ def _grouped(devices: Sequence[Device]) -> list[list[Device]]:
 
 def _may_join(device: Device) -> bool:
     """Return whether a device is read together with those whose sensors are equal."""
-    if device.when_asked or "read_all" not in vars(type(device.sensor)):
+    if not {"read_all", "scan"} & vars(type(device.sensor)).keys():
         return False
     try:
         hash(device.described)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from functools import cached_property
 from math import inf, pi
 from typing import Any, ClassVar
@@ -11,7 +11,6 @@ import numpy as np
 
 from mars2d.core.arithmetic import cosine_sine, cosines_sines, norms
 from mars2d.core.description import integer, number
-from mars2d.core.interfaces import RobotLike
 from mars2d.core.plane import WITHIN, Point, up_to
 from mars2d.core.quantity import DISTANCE, Quantity
 from mars2d.core.scene import Scene, faded
@@ -45,22 +44,17 @@ class SonarRing(Scanner):
         """The bearings of the cones' axes (sonars,): radians from the sensor's heading."""
         return beam_angles(self.sonars, self.field_of_view)
 
-    def read_all(
-        self,
-        robots: Sequence[RobotLike],
-        world: Surroundings,
-        rngs: Sequence[np.random.Generator],  # noqa: ARG002
-    ) -> Float:
+    def scan(self, poses: Float, robots: list[int], world: Surroundings) -> Float:
         """Return the distances (m, sonars) to the nearest surfaces."""
-        mine, half = [robot.index for robot in robots], WITHIN * self.cone / 2
-        poses = self.placed(world.pose[:, mine])
+        half = WITHIN * self.cone / 2
         # All surfaces are convex pieces: their point nearest to us within a cone is either the
         # nearest of all, or lies where an edge of the cone first meets them.
         edges = np.concatenate([self.angles - half, self.angles + half])
-        rays = world.scans(poses, edges, self.range, mine).reshape(len(mine), 2, -1).min(axis=1)
+        rays = world.scans(poses, edges, self.range, robots)
+        rays = rays.reshape(len(robots), 2, -1).min(axis=1)
         nearest = [
             self._nearest(x, y, theta, world.nearby((x, y), self.range, robot))
-            for robot, (x, y, theta) in zip(mine, poses.T.tolist(), strict=True)
+            for robot, (x, y, theta) in zip(robots, poses.T.tolist(), strict=True)
         ]
         return up_to(np.minimum(rays, nearest), self.range)
 
@@ -78,13 +72,6 @@ class SonarRing(Scanner):
     def fan(self) -> Fan:
         """Its cones."""
         return Fan(self.angles, self.range, self.cone)
-
-    def sign(self, scene: Scene, color: str) -> str:
-        """Draw a cone that ends at an echo."""
-        scene.sector((-9.0, 0.0, 0.0), 16.0, 0.9, fill=faded(color, 0.15))
-        c, s = cosines_sines(np.linspace(-0.45, 0.45, 9))
-        scene.line(np.column_stack([16 * c - 9, 16 * s]), stroke=faded(color, 0.9), width=2.0)
-        return "a sonar's echo"
 
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw each cone as far as it is free, and an arc where it ends at something."""

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from mars2d.core.errors import InputError, counted
 from mars2d.output.figures.figure import new_figure, save_drawing, show_in_notebooks
-from mars2d.output.figures.labels import shortened
 from mars2d.output.figures.legend import Entry
 from mars2d.output.figures.panels import (
+    PANEL,
     caption,
     checked_axes,
     frame_panel,
@@ -23,9 +23,10 @@ from mars2d.output.figures.panels import (
     say,
     set_span,
     short_number,
+    shortened,
     size_of,
 )
-from mars2d.output.figures.style import DASHES, Style, style_of
+from mars2d.output.figures.style import DASHES, INK, MUTED, SMALL, curve_color, points
 from mars2d.study.estimates import Estimate, estimates
 from mars2d.study.layout import Layout, layout_of
 from mars2d.study.statistics import confident
@@ -62,7 +63,6 @@ def plot_study(
     *,
     confidence: float = 0.95,
     x: str | None = None,
-    style: str | Style = "screen",
 ) -> list[Axes]:
     """Draw the measures of a study over a setting, one panel a mean or share; return the axes.
 
@@ -70,69 +70,60 @@ def plot_study(
     only some runs, because others have no number, is hollow; the panel below shows their share.
     x: the setting along the axis, by default the first with several numbers; each combination of
     the others is a line. axes: one for each panel; by default those of a new figure.
-    style: as in `Record.plot`. Raises InputError if there is nothing to draw, or too much.
+    Raises InputError if there is nothing to draw, or too much.
     """
-    look, confidence = style_of(style), confident(confidence)
+    confidence = confident(confidence)
     shown = estimates(table, both=False)
     if not table.results or not shown:
         what = "measures" if table.results else "runs"
         raise InputError(f"figure: the study of {table.experiment} has no {what}")
     layout = layout_of(table, x)
-    drawing = _Drawing(table, layout, look, confidence)
-    with look.fonts():
-        panels = _panels(axes, shown, look)
-        for ax, estimate in zip(panels, shown, strict=True):
-            _dress(ax, layout, look)
-            drawing.panel(ax, estimate)
-            caption(ax, estimate.label, "%" if estimate.share else estimate.unit, look)
-            if axes is not None or ax is panels[-1]:
-                _name_axis(ax, table, layout, look)
-            else:
-                ax.tick_params(labelbottom=False)
-        kinds = " and ".join(sorted({"shares" if each.share else "means" for each in shown}))
-        title = f"{table.experiment}: {kinds} with {100 * confidence:.4g} % intervals"
-        if table.failed:
-            title += f", {counted(len(table.failed), 'run')} failed"
-        name_curves(panels[0], title, drawing.entries(panels[0], shown), look)
+    drawing = _Drawing(table, layout, confidence)
+    panels = _panels(axes, shown)
+    for ax, estimate in zip(panels, shown, strict=True):
+        _dress(ax, layout)
+        drawing.panel(ax, estimate)
+        caption(ax, estimate.label, "%" if estimate.share else estimate.unit)
+        if axes is not None or ax is panels[-1]:
+            _name_axis(ax, table, layout)
+        else:
+            ax.tick_params(labelbottom=False)
+    kinds = " and ".join(sorted({"shares" if each.share else "means" for each in shown}))
+    title = f"{table.experiment}: {kinds} with {100 * confidence:.4g} % intervals"
+    if table.failed:
+        title += f", {counted(len(table.failed), 'run')} failed"
+    name_curves(panels[0], title, drawing.entries(panels[0], shown))
     if axes is None:
         show_in_notebooks(*panels)
     return panels
 
 
-def save_study_figure(
-    table: Table,
-    path: str | Path,
-    *,
-    confidence: float = 0.95,
-    style: str | Style = "screen",
-) -> Path:
+def save_study_figure(table: Table, path: str | Path, *, confidence: float = 0.95) -> Path:
     """Save the figure of `plot_study` as ``.png``, ``.pdf`` or ``.svg`` and return its path.
 
     The same table gives the same bytes. Raises InputError as `plot_study` does, for any other
     suffix, and if the file can't be written.
     """
-    look = style_of(style)
 
     def draw() -> Any:
-        return plot_study(table, confidence=confidence, style=style)[0].figure
+        return plot_study(table, confidence=confidence)[0].figure
 
-    return save_drawing(draw, path, trim=look.trim, dpi=look.dpi)
+    return save_drawing(draw, path)
 
 
 # -- panels ----------------------------------------------------------------------------------------
 
 
-def _panels(axes: Sequence[Axes] | None, shown: Sequence[Estimate], look: Style) -> list[Axes]:
+def _panels(axes: Sequence[Axes] | None, shown: Sequence[Estimate]) -> list[Axes]:
     """Return the axes of the panels: those given, or those of a new figure."""
     tall = len(shown)
     if axes is not None:
         return list(checked_axes(axes, tall, f"({', '.join(each.label for each in shown)})"))
-    height = tall * PANEL_HEIGHT * look.panel + 0.09 * look.label
-    figure = new_figure(*(look.page or (look.single or 7.0, height)))
+    figure = new_figure(7.0, tall * PANEL_HEIGHT * PANEL + 0.9)
     return list(figure.subplots(tall, 1, sharex=True, squeeze=False)[:, 0])
 
 
-def _dress(ax: Axes, layout: Layout, look: Style) -> None:
+def _dress(ax: Axes, layout: Layout) -> None:
     """Set the scale, limits and ticks of the axis, grid and spines."""
     from matplotlib.ticker import FuncFormatter, NullLocator
 
@@ -141,17 +132,17 @@ def _dress(ax: Axes, layout: Layout, look: Style) -> None:
         ax.xaxis.set_minor_locator(NullLocator())
     ax.set_xlim(*layout.limits())
     if layout.roomy() or not layout.numeric:
-        _name_values(ax, layout, look)
+        _name_values(ax, layout)
     else:
         ax.xaxis.set_major_formatter(FuncFormatter(short_number))
-    frame_panel(ax, look, [1, 2, 2.5, 5, 10])
+    frame_panel(ax, [1, 2, 2.5, 5, 10])
 
 
-def _name_values(ax: Axes, layout: Layout, look: Style) -> None:
+def _name_values(ax: Axes, layout: Layout) -> None:
     """Write each value below its tick, turned where there is little room."""
     scaled = layout.scaled()
     names = [in_words(value) for value in layout.values] or [""]
-    letters = letters_in(size_of(ax)[0] / len(names), look.small)
+    letters = letters_in(size_of(ax)[0] / len(names), points(SMALL))
     turned: dict[str, Any] = {}
     if max(map(len, names)) >= letters:
         names = [shortened(name, TURNED_LETTERS) for name in names]
@@ -160,14 +151,14 @@ def _name_values(ax: Axes, layout: Layout, look: Style) -> None:
     ax.set_xticks(places.tolist(), names, parse_math=False, **turned)
 
 
-def _name_axis(ax: Axes, table: Table, layout: Layout, look: Style) -> None:
+def _name_axis(ax: Axes, table: Table, layout: Layout) -> None:
     """Label the axis with the setting along it."""
     name = "all runs"
     if layout.axis is not None:
         setting = table.settings[layout.axis]
         name = with_unit(setting, table.unit(setting))
-    text = shortened(name, letters_in(size_of(ax)[0], look.label))
-    ax.set_xlabel(text, color=look.ink, fontsize=look.label, parse_math=False)
+    text = shortened(name, letters_in(size_of(ax)[0], points()))
+    ax.set_xlabel(text, color=INK, fontsize=points(), parse_math=False)
 
 
 @dataclass(frozen=True)
@@ -176,15 +167,14 @@ class _Drawing:
 
     table: Table
     layout: Layout
-    look: Style
     confidence: float
 
     def panel(self, ax: Axes, estimate: Estimate) -> None:
         """Draw an estimate into its panel."""
-        points, spans = self.table.points(), [np.empty(0)]
+        found, spans = self.table.points(), [np.empty(0)]
         for name, line in self.layout.lines.items():
             places = np.array([self.layout.place(point, name) for point in line])
-            runs = [estimate.values(points[point]) for point in line]
+            runs = [estimate.values(found[point]) for point in line]
             if not estimate.share:
                 spans += [self._dots(ax, places, runs, self._entry(name))]
             spans += [self._means(ax, places, runs, self._entry(name), estimate)]
@@ -192,13 +182,13 @@ class _Drawing:
         seen = seen[np.isfinite(seen)]
         if estimate.share:
             ax.set_ylim(-6, 106)
-            few = size_of(ax)[1] < 5 * 2.4 * self.look.small
+            few = size_of(ax)[1] < 5 * 2.4 * points(SMALL)
             ax.set_yticks([0, 50, 100] if few else [0, 25, 50, 75, 100])
         else:
             set_span(ax, seen.min(initial=np.inf), seen.max(initial=-np.inf))
         if not len(seen):
             ax.set_yticks([])
-            say(ax, "nothing was measured", self.look)
+            say(ax, "nothing was measured")
 
     def _dots(self, ax: Axes, places: Float, runs: Sequence[Float], entry: Entry) -> Float:
         """Draw each run as a dot, and return the runs' values."""
@@ -207,7 +197,7 @@ class _Drawing:
             kept = kept[:: -(-len(kept) // MAX_DOTS) or 1]
             ax.plot(
                 np.full(len(kept), place), kept, linestyle="none", marker="o", color=entry.color,
-                markersize=0.35 * self.look.small, markeredgewidth=0, alpha=0.22, zorder=2.2,
+                markersize=0.35 * points(SMALL), markeredgewidth=0, alpha=0.22, zorder=2.2,
             )  # fmt: skip
         return np.concatenate(runs)
 
@@ -215,7 +205,7 @@ class _Drawing:
         self, ax: Axes, places: Float, runs: Sequence[Float], entry: Entry, estimate: Estimate
     ) -> Float:
         """Draw means or shares with their intervals, and return the bounds."""
-        scale, small = 100.0 if estimate.share else 1.0, self.look.small
+        scale, small = 100.0 if estimate.share else 1.0, points(SMALL)
         found = [estimate.interval(values, self.confidence) for values in runs]
         mean, low, high = scale * np.array([(each.mean, each.low, each.high) for each in found]).T
         joined = np.isfinite(mean)
@@ -241,16 +231,14 @@ class _Drawing:
 
     def _entry(self, name: str) -> Entry:
         """Return a line's colour, line style and marker, each of which identifies it."""
-        index, look = [*self.layout.lines].index(name), self.look
-        color, dash = look.curve(index)
-        if not look.greys:
-            dash = DASHES[index % len(DASHES)]
-        return Entry(name, color, dash, 1.3 * look.stroke, MARKERS[index % len(MARKERS)])
+        index = [*self.layout.lines].index(name)
+        dash, marker = DASHES[index % len(DASHES)], MARKERS[index % len(MARKERS)]
+        return Entry(name, curve_color(index), dash, 1.3, marker)
 
     def entries(self, above: Axes, shown: Sequence[Estimate]) -> list[Entry]:
         """Return the entries of the legend: several lines, and the meaning of hollow markers."""
-        look, lines = self.look, [*self.layout.lines]
-        letters = letters_in(LEGEND * above.figure.bbox.width * 72 / above.figure.dpi, look.small)
+        lines, wide = [*self.layout.lines], above.figure.bbox.width * 72 / above.figure.dpi
+        letters = letters_in(LEGEND * wide, points(SMALL))
         entries = [self._entry(name) for name in (lines if len(lines) > 1 else ())]
         entries = [each._replace(name=shortened(each.name, letters)) for each in entries]
         if not self.layout.numeric:
@@ -258,7 +246,6 @@ class _Drawing:
         means = [each for each in shown if each.some]
         runs = [mean.values(each) for mean in means for each in self.table.points().values()]
         if any(0 < np.isfinite(values).sum() < len(values) for values in runs):
-            width = 1.3 * look.stroke
-            hollow = Entry("mean of some runs alone", look.muted, "", width, "o", hollow=True)
+            hollow = Entry("mean of some runs alone", MUTED, "", 1.3, "o", hollow=True)
             entries.append(hollow)
         return entries

@@ -25,8 +25,6 @@ MAX_RUNS = 1_000_000
 NUMBER = r"\s*[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?\s*"
 RANGE = re.compile(f"({NUMBER}):({NUMBER}):({NUMBER})")
 
-BRACKETS = {"(": ")", "[": "]", "{": "}"}
-
 
 @dataclass(frozen=True)
 class Plan:
@@ -129,8 +127,8 @@ def seeds_of(seeds: int | Iterable[int], first: int = 0) -> tuple[int, ...]:
 def parse_values(text: str) -> tuple[str, list[Any]]:
     """Return (name, values) of ``name=values`` from the command line.
 
-    ``a:b:k`` stands for k evenly spaced values from a to b, both included. Commas separate values,
-    except in brackets and quotes. Each value is a Python literal, or else a word.
+    ``a:b:k`` stands for k evenly spaced values from a to b, both included. Commas separate values.
+    Each is a Python literal, or else a word; where there are brackets or quotes, all are literals.
 
     >>> parse_values("gain=0.1:0.3:3")
     ('gain', [0.1, 0.2, 0.3])
@@ -161,23 +159,14 @@ def parse_all(texts: Iterable[str]) -> dict[str, Any]:
 
 
 def _split(text: str, given: str) -> list[str]:
-    """Split text at the commas outside of brackets and quotes."""
-    items, closing, start, quote = list[str](), list[str](), 0, ""
-    for k, letter in enumerate(given):
-        if quote:
-            quote = "" if letter == quote and given[k - 1] != "\\" else quote
-        elif letter in "'\"" and (closing or not given[start:k].strip()):
-            quote = letter
-        elif letter in BRACKETS:
-            closing.append(BRACKETS[letter])
-        elif closing and letter == closing[-1]:
-            closing.pop()
-        elif letter == "," and not closing:
-            items.append(given[start:k].strip())
-            start = k + 1
-    items.append(given[start:].strip())
-    if quote or closing:
-        raise InputError(f"--set {text}: {quote or closing[-1]} is missing at the end")
+    """Split text at the commas; with brackets or quotes it is a list in Python, without its own."""
+    if re.search(r"[(\[{]|(^|,)\s*['\"]", given):
+        try:
+            return [repr(value) for value in ast.literal_eval(f"[{given}]")]
+        except (ValueError, SyntaxError, MemoryError, RecursionError):
+            expected = "with brackets or quotes all values are as in Python, words in quotes"
+            raise InputError(f"--set {text}: {expected}") from None
+    items = [item.strip() for item in given.split(",")]
     if "" in items:
         raise InputError(f"--set {text}: there is nothing between two commas, or at an end")
     return items

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from mars2d.addons import Addon, Beacon, Floor, Map
-from mars2d.bodies.props.box import Box
+from mars2d.bodies.props.rectangles import Box
 from mars2d.core.deadline import Deadline
 from mars2d.core.errors import InputError, Late
 from mars2d.core.hints import described

@@ -5,7 +5,6 @@ from __future__ import annotations
 import glob
 import itertools
 import os
-import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -121,13 +120,12 @@ def trial_matches(
 ) -> tuple[Match, ...]:
     """Return a few matches of each law in a role, whose rivals are the experiment's own laws.
 
-    Raises InputError for a role or a file that is not there, and for a law of another role.
+    Raises InputError for a role or a file that is not there.
     """
     opened, names = _opened(experiment, options)
     if role not in names:
         raise InputError(f"--role {role}: {experiment} has no such role{nearest(role, names)}")
     files = law_files(laws, Path(opened.source.path or "").parent)
-    check_meant(role, files, names)
     each = itertools.product(files, range(TRIALS))
     return tuple(
         Match(number, experiment, options, seed, {role: file.stem}, {role: str(file)})
@@ -142,18 +140,6 @@ def _opened(
     opened = open_experiment(experiment, options, seed=seed)
     contest_of(opened.scenario, str(experiment))
     return opened, tuple(roles_of(opened.scenario))
-
-
-def check_meant(role: str, files: Iterable[Path], roles: Sequence[str]) -> None:
-    """Refuse laws in a folder that is named for another role, as `evaders` is."""
-    for file in files:
-        words = {word.removesuffix("s") for word in re.split(r"[^a-z]+", file.parent.name.lower())}
-        meant = [each for each in roles if each.lower().removesuffix("s") in words]
-        if meant and role not in meant:
-            raise InputError(
-                f"{file.parent.name}/{file.name}: by its folder it plays {meant[0]}, not {role}; "
-                f"if it is to play {role}, copy it to another folder"
-            )
 
 
 def _check_names(options: Iterable[str], roles: Sequence[str]) -> None:
@@ -227,7 +213,6 @@ def entrants(
     found = {}
     for role in roles:
         own = law_files(given.get(role, ()), beside)
-        check_meant(role, own, roles)
         laws = tuple(dict.fromkeys((*own, *every)))
         if not laws:
             raise InputError(

@@ -50,8 +50,6 @@ def show_experiment(
     game. Raises InputError without a display, and the error of a law after the window is closed.
     """
     require_pygame("a window")
-    from mars2d.window.run.play import game_of
-
     source: Timeline | None = None
     kept = interrupts(kept=lambda: None if source is None else source.record)
     with kept, log or nullcontext():
@@ -64,7 +62,7 @@ def show_experiment(
         by_hand = [i for i, robot in robots if isinstance(robot.controller, ByHand)]
         drivers = list(humans) or by_hand  # robots whose law is that a person drives them
         if drivers or play:
-            window.play(memory, game_of(experiment), drivers[:MOST_PEOPLE])
+            window.play(drivers[:MOST_PEOPLE])
         else:
             window.say_who_stands_still()
         try:
@@ -124,7 +122,7 @@ def show_comparison(
     require_pygame("a window")
     from mars2d.window.compare_window import CompareWindow
     from mars2d.window.screen.memory import Memory
-    from mars2d.window.trio import Trio
+    from mars2d.window.screen.source import Trio
 
     memory, runs = Memory(), {mode: Timeline(opened(mode)) for mode in MODES}
     CompareWindow(Trio(runs), speed, memory.size, preferences or memory.preferences()).run()

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from mars2d.addons.communication import Burst, Communication
 from mars2d.core.arithmetic import ROUNDING, steps_until
-from mars2d.core.errors import LawError, nearest, shown
+from mars2d.core.errors import InputError, LawError, shown
 from mars2d.record.message import (
     LOST,
     MESSAGE,
@@ -24,7 +24,6 @@ from mars2d.record.message import (
 )
 from mars2d.scenario.neighbours import Everyone, within
 from mars2d.world.state import State
-from mars2d.world.surroundings import Around
 
 Int = NDArray[np.int64]
 
@@ -67,11 +66,10 @@ class Channel:
     the order in which laws are asked.
     """
 
-    def __init__(self, world: State, around: Around, model: Communication) -> None:
-        """Take the world, its surroundings, and the live add-on, whose random stream is used."""
-        self._world, self._around, self._model = world, around, model
+    def __init__(self, world: State, model: Communication) -> None:
+        """Take the world, and the live add-on, whose random stream is used."""
+        self._world, self._model = world, model
         self._names = [str(robot.name) for robot in world.scenario.robots]
-        self._indices = {name: i for i, name in enumerate(self._names)}
         self._sent: list[_Sent] = []
         self._free: dict[int, float] = defaultdict(float)  # when a sender has sent all, s
         self._coming: dict[int, list[tuple[_Letter, Int]]] = {}  # by the iteration of arrival
@@ -166,28 +164,17 @@ class Channel:
         """Return the receivers of a message by index (k,), each once."""
         if to is None:
             return np.delete(np.arange(len(self._names)), sender)
-        if isinstance(to, np.ndarray):
-            to = to.ravel().tolist()
-        listed = to if isinstance(to, (list, tuple, set, frozenset)) else [to]
-        found = sorted({self._receiver(sender, one) for one in listed})
-        return np.array(found, dtype=np.int64)
-
-    def _receiver(self, sender: int, to: Any) -> int:
-        where = f"robot.send(to={shown(to)})"
-        if isinstance(to, str):
-            if to not in self._indices:
-                raise LawError(f"{where}: no robot is called so{nearest(to, self._names)}")
-            found = self._indices[to]
-        elif isinstance(to, (int, np.integer)) and not isinstance(to, bool):
-            last = len(self._names) - 1
-            if not 0 <= to <= last:
-                raise LawError(f"{where}: no such robot; expected an index from 0 to {last}")
-            found = int(to)
-        else:
-            raise LawError(f"{where}: expected {WHO}")
-        if found == sender:
+        where, index = f"robot.send(to={shown(to)})", self._world.scenario.index_of
+        listed = to if isinstance(to, (list, tuple, set, frozenset, np.ndarray)) else [to]
+        try:
+            found = sorted({index(where, one) for one in listed})
+        except TypeError:
+            raise LawError(f"{where}: expected {WHO}") from None
+        except InputError as error:
+            raise LawError(str(error)) from None
+        if sender in found:
             raise LawError(f"{where}: {self._names[sender]} can't send to itself")
-        return found
+        return np.array(found, dtype=np.int64)
 
     def _reached(self, sender: int, others: Int) -> NDArray[np.bool_]:
         """Return a mask (k,) of the others that the channel reaches from the sender's position."""
@@ -198,10 +185,6 @@ class Channel:
         x, y = world.pose[:2]
         if model.range is not None:
             reached &= within(x[others] - x[sender], y[others] - y[sender], model.range)
-        if model.line_of_sight and reached.any():
-            near = np.flatnonzero(reached)
-            start, there = (float(x[sender]), float(y[sender])), world.pose[:2, others[near]].T
-            reached[near] = ~self._around.hidden(start, there, others[near], sender)
         return reached
 
     def _hearers_of(self, sender: int) -> Int:

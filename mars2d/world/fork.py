@@ -7,10 +7,9 @@ from copy import deepcopy
 from typing import Any
 
 from mars2d.core.errors import InputError, one_line
-from mars2d.record.columns import Column
 from mars2d.record.recorder import History, Recorder, Unrecorded
 from mars2d.world.simulation import Simulation
-from mars2d.world.uncopied import FORKING
+from mars2d.world.state import FORKING
 
 
 def forked(simulation: Simulation, *, laws: bool, recorder: Recorder | None = None) -> Simulation:
@@ -33,7 +32,7 @@ def forked(simulation: Simulation, *, laws: bool, recorder: Recorder | None = No
                 f"__deepcopy__{hint}"
             ) from error
     copied = deepcopy(simulation, memo)
-    copied.endless, copied.storage = recorder is None, None if recorder is None else Column
+    copied.endless = recorder is None
     copied.resume()
     return copied
 
@@ -50,7 +49,6 @@ def _replaced(
         yield part, part
     yield simulation.recorder, recorder
     yield simulation.history, History(recorder)
-    yield simulation.storage, None
     yield simulation.engine, simulation.engine.fork()
     yield simulation.operator.log, [*simulation.operator.log]
     if simulation.watch is not None:

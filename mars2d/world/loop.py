@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from mars2d.core.deadline import Deadline, patience
 from mars2d.core.errors import InputError, Late, LawError
 from mars2d.core.interrupt import give_up, interrupts
-from mars2d.record.columns import Column, DiskError, Storage
+from mars2d.record.columns import DiskError
 from mars2d.scenario.experiment import Experiment
 from mars2d.world.record import Record
 from mars2d.world.world import Watcher, World
@@ -56,9 +56,9 @@ def simulate(
 
     speed: simulated seconds per second, > 0, or "max". watchers: called with the world at each
     control step, after its sensors are read: to draw, to count, to wait. log: writes each control
-    step to a file when it is done, and keeps the columns of the record in files; it is closed at
-    the end in any case. A LawError that ends the run carries the record until then as its `record`,
-    and so do a DiskError of the log and Interrupted, which Ctrl-C raises.
+    step to a file when it is done; it is closed at the end in any case. A LawError
+    that ends the run carries the record until then as its `record`, and so do a DiskError of the
+    log and Interrupted, which Ctrl-C raises.
     """
     every: list[Watcher] = [*watchers]
     if speed != "max":
@@ -69,7 +69,7 @@ def simulate(
     try:
         noted = interrupts(kept=lambda: None if world is None else world.record)
         with noted as check, log or nullcontext(), deadline:
-            world = open_world(experiment, every, Column if log is None else log.storage)
+            world = open_world(experiment, every)
             gc.freeze()  # or the longest step would be that in which it looks for garbage in it
             try:
                 while not world.over:
@@ -102,12 +102,11 @@ def simulate(
 def open_world(
     experiment: Experiment,
     watchers: Sequence[Watcher] = (),
-    storage: Storage = Column,
     record: bool = True,
 ) -> World:
     """Return the world of an experiment, which calls the watchers at each control step.
 
-    storage, record: see `World`. Raises InputError, which names the file.
+    record: see `World`. Raises InputError, which names the file.
     """
     try:
         return World(
@@ -116,7 +115,6 @@ def open_world(
             experiment.seed or 0,
             filename=experiment.source.name,
             watch=watch_by(watchers),
-            storage=storage,
             options=experiment.options,
             record=record,
         )

@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from numpy.typing import ArrayLike
-    from pandas import DataFrame
     from xarray import Dataset
 
 LOAD_LIMIT = 2**31
@@ -45,23 +44,20 @@ class Record(Rows):
 
     # -- for people ---------------------------------------------------------------------------
 
-    def plot(self, ax: Axes | None = None, *, style: str = "screen") -> Axes:
+    def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the paths: initial poses hollow, final poses filled, obstacles and grid.
 
-        ax: matplotlib axes to draw on; by default those of a new figure. style: "screen", "print"
-        or "projector", see `mars2d.output.figures.style`. Returns the axes.
+        ax: matplotlib axes to draw on; by default those of a new figure. Returns the axes.
         """
         from mars2d.output.figures.figure import plot_paths
 
-        return plot_paths(self, ax, style=style)
+        return plot_paths(self, ax)
 
-    def plot_snapshots(
-        self, times: ArrayLike, figure: Figure | None = None, *, style: str = "screen"
-    ) -> Figure:
+    def plot_snapshots(self, times: ArrayLike) -> Figure:
         """Draw the paths until each of some times [s], one panel a time; return the figure."""
         from mars2d.output.figures.figure import plot_snapshots
 
-        return plot_snapshots(self, times, figure, style=style)
+        return plot_snapshots(self, times)
 
     def plot_signals(
         self,
@@ -70,34 +66,29 @@ class Record(Rows):
         axes: Sequence[Axes] | None = None,
         start: float | None = None,
         end: float | None = None,
-        style: str = "screen",
     ) -> list[Axes]:
         """Draw columns over time, one panel a column; see `figures.signals.plot_signals`."""
         from mars2d.output.figures.signals import plot_signals
 
-        return plot_signals(self, columns, robots, axes, start=start, end=end, style=style)
+        return plot_signals(self, columns, robots, axes, start=start, end=end)
 
-    def plot_contacts(
-        self, axes: Sequence[Axes] | None = None, *, style: str = "screen"
-    ) -> list[Axes]:
+    def plot_contacts(self, axes: Sequence[Axes] | None = None) -> list[Axes]:
         """Draw who touched whom when, and how hard; see `figures.contacts.plot_contacts`."""
         from mars2d.output.figures.contacts import plot_contacts
 
-        return plot_contacts(self, axes, style=style)
+        return plot_contacts(self, axes)
 
-    def plot_impacts(
-        self, axes: Sequence[Axes] | None = None, *, style: str = "screen"
-    ) -> list[Axes]:
+    def plot_impacts(self, axes: Sequence[Axes] | None = None) -> list[Axes]:
         """Draw what touches did to velocities, with numbers; see `figures.impacts.plot_impacts`."""
         from mars2d.output.figures.impacts import plot_impacts
 
-        return plot_impacts(self, axes, style=style)
+        return plot_impacts(self, axes)
 
-    def plot_distances(self, ax: Axes | None = None, *, style: str = "screen") -> Axes:
+    def plot_distances(self, ax: Axes | None = None) -> Axes:
         """Draw distances over time; see `mars2d.output.figures.distances.plot_distances`."""
         from mars2d.output.figures.distances import plot_distances
 
-        return plot_distances(self, ax, style=style)
+        return plot_distances(self, ax)
 
     def film(
         self,
@@ -134,12 +125,6 @@ class Record(Rows):
 
     # -- for programs -------------------------------------------------------------------------
 
-    def to_frame(self, table: str = "bodies") -> DataFrame:
-        """Return a table of pandas: "bodies", "contacts" or "messages"; see `formats.frame`."""
-        from mars2d.output.formats.frame import to_frame
-
-        return to_frame(self, table)
-
     def to_xarray(self) -> Dataset:
         """Return all columns as a dataset of xarray, with units; see `output.formats.dataset`."""
         from mars2d.output.formats.dataset import to_xarray
@@ -150,7 +135,7 @@ class Record(Rows):
         """Write the record to a file and return its path; the ending says in which format.
 
         ``.npz`` numpy, ``.csv`` a long table, ``.mcap`` a log for Foxglove: `load` reads these
-        again, with the same digest. ``.mat`` for Matlab and Octave, ``.nc`` netCDF: exports. Raises
+        again, with the same digest. ``.mat`` for Matlab and Octave: an export. Raises
         InputError where it can't be written, MissingExtraError where a library is missing.
         """
         from mars2d.output import formats

@@ -19,7 +19,7 @@ from mars2d.core.errors import InputError, LawError
 from mars2d.core.hints import described
 from mars2d.core.interfaces import WorldLike
 from mars2d.core.scene import Scene
-from mars2d.record.columns import DiskError, Storage
+from mars2d.record.columns import DiskError
 from mars2d.record.contact import met, met_or_parted
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.sensing import Device, Sensing
@@ -59,12 +59,12 @@ class Simulation(State):
         scenario: Scenario,
         seed: int,
         filename: str,
-        storage: Storage | None,
+        record: bool,
         options: Mapping[str, Any],
     ) -> None:
         """Put the bodies where they start. `begin` adds laws, add-ons and sensors."""
         self.declared, scenario = scenario, scenario.started(seed)
-        super().__init__(scenario, seed, storage, options)
+        super().__init__(scenario, seed, record, options)
         self.filename = whole(filename)
         self.watch: Callable[[Any], None] | None = None
         self.seconds = {"physics": 0.0, "laws": 0.0, "sensing": 0.0}
@@ -99,7 +99,7 @@ class Simulation(State):
         self._take_scenario({}, control)
         live = vars(self.addons).values()
         talk = next((addon for addon in live if isinstance(addon, Communication)), None)
-        self._channel = None if talk is None else Channel(self, self.surroundings, talk)
+        self._channel = None if talk is None else Channel(self, talk)
         self._hooks.call("on_start", world)
         around = self.surroundings  # sensors know all of the world, whatever the laws see
         self.sensing = Sensing(
@@ -233,7 +233,7 @@ class Simulation(State):
                 error.where = error.where or self.filename or None
                 error.time = self.time if error.time is None else error.time
             self.break_off(f"Error: {error}")
-            error.record = None if self.storage is None else self.record
+            error.record = self.record if self.recorder.keeps else None
             raise
         except InputError:  # of what was given to step(): it may be called again
             raise
@@ -362,7 +362,6 @@ class Simulation(State):
 
     def _drive(self, twist: Float | None) -> None:
         """Move the robots for one sampling time under the commands in effect, or twists (3, n)."""
-        self.sensing.close()
         time = self.time
         self.driven = []
         start = perf_counter()

@@ -3,26 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from copy import deepcopy
 from functools import cached_property
 from types import SimpleNamespace
-from typing import Any, NoReturn
+from typing import Any, NoReturn, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons.base import HOOKS, Addon, hooks_of
 from mars2d.core.arrays import locked, sealed
-from mars2d.core.errors import UnknownNameError, nearest
+from mars2d.core.errors import InputError, UnknownNameError, nearest
 from mars2d.core.streams import stream
 from mars2d.core.usercode import called
 from mars2d.physics.engine import Engine, Kinematics
 from mars2d.physics.versions import versions
-from mars2d.record.columns import Storage
 from mars2d.record.contact import CONTACT
 from mars2d.record.energy import Energy, Momentum, energy_of, momentum_of
 from mars2d.record.recorder import History, Recorder, Unrecorded
 from mars2d.scenario.scenario import Scenario
-from mars2d.world.uncopied import Uncopied
 
 ENGINES: dict[str, type[Engine | Kinematics]] = {
     "contact": Engine,
@@ -32,6 +31,29 @@ ENGINES: dict[str, type[Engine | Kinematics]] = {
 """The class that moves the bodies, by Scenario.physics."""
 
 Float = NDArray[np.float64]
+
+
+FORKING = "a fork of a world"
+"""The key of a memo of `deepcopy` with which a whole world is copied."""
+
+
+class Uncopied:
+    """The base of a world: a copy would share half of it, and mix two runs."""
+
+    def __reduce_ex__(self, protocol: object) -> NoReturn:
+        raise InputError(
+            "a world can't be copied, pickled or sent to another process: world.fork() goes on "
+            "from here, World(world.scenario, control, world.seed) starts again, and world.record "
+            "is data"
+        )
+
+    def __deepcopy__(self, memo: dict[Any, Any]) -> Self:
+        """Copy this as a part of a whole world, or raise InputError."""
+        if FORKING not in memo:
+            self.__reduce_ex__(4)
+        copied = memo[id(self)] = object.__new__(type(self))
+        vars(copied).update({name: deepcopy(value, memo) for name, value in vars(self).items()})
+        return copied
 
 
 class Addons(SimpleNamespace):
@@ -96,13 +118,12 @@ class State(Uncopied):
         self,
         scenario: Scenario,
         seed: int,
-        storage: Storage | None,
+        record: bool,
         options: Mapping[str, Any],
     ) -> None:
         """Put the bodies where they start.
 
-        storage: makes the columns of the record; None: nothing is recorded. options: that the
-        record states.
+        record: whether it is recorded. options: that the record states.
         """
         self.scenario = scenario
         self.seed = seed
@@ -110,12 +131,7 @@ class State(Uncopied):
         self.over = False
         self.over_message = ""
         self.broken_off = False
-        self.storage = storage
-        self.recorder = (
-            Unrecorded(scenario, options=options)
-            if storage is None
-            else Recorder(scenario, storage, versions, options)
-        )
+        self.recorder = (Recorder if record else Unrecorded)(scenario, versions, options)
         self.history = History(self.recorder)
         self.addons = Addons()
         n = len(scenario.robots)

@@ -70,19 +70,9 @@ class Around:
     def ray(self, start: Point, angle: float, length: float, ignore: int) -> float:
         """Return the length of a ray to the first surface, metres; inf if none is hit."""
         _check_look("start", start, "length", length)
-        _check_all("angle", angle)
+        if not isfinite(angle):
+            raise InputError(f"angle = {angle}: expected a finite number")
         return self._space.length(start, angle, length, ignore)
-
-    def rays(self, start: Point, angles: Float, length: ArrayLike, ignore: int) -> Float:
-        """Return the lengths of rays at angles (k,), metres; inf where nothing is hit."""
-        return np.asarray(self.scans(_upright(start), angles, length, [ignore])[0])
-
-    def sight(
-        self, start: Point, angles: Float, length: ArrayLike, ignore: int
-    ) -> tuple[Float, Int]:
-        """Return the lengths of rays, and the body that each hits, NOTHING if none."""
-        distances, bodies = self.sights(_upright(start), angles, length, [ignore])
-        return distances[0], bodies[0]
 
     def scans(self, poses: Float, bearings: Float, length: ArrayLike, ignore: ArrayLike) -> Float:
         """Return the lengths (m, k) of rays from poses (3, m) at bearings (k,), metres."""
@@ -138,11 +128,6 @@ class Around:
         return WHITE
 
 
-def _upright(start: Point) -> Float:
-    """Return a point as a pose (3, 1) of heading 0, so that bearings are angles."""
-    return np.array([[start[0]], [start[1]], [0.0]])
-
-
 def _check_look(what: str, point: Point, how_far: str, limit: float) -> None:
     """Raise InputError for a point or length that is not finite, which would find nothing."""
     if not (isfinite(point[0]) and isfinite(point[1])):
@@ -153,12 +138,8 @@ def _check_look(what: str, point: Point, how_far: str, limit: float) -> None:
 
 def _check_fans(poses: Float, bearings: Float, length: ArrayLike) -> None:
     """Raise InputError for poses or bearings that are not finite, and for negative lengths."""
-    _check_all("poses", poses)
-    _check_all("bearings", bearings)
+    for name, values in (("poses", poses), ("bearings", bearings)):
+        if not np.isfinite(values).all():
+            raise InputError(f"{name} = {np.asarray(values)}: expected finite numbers")
     if not np.greater_equal(length, 0).all():
         raise InputError(f"length = {np.asarray(length)}: expected at least 0 m")
-
-
-def _check_all(name: str, values: ArrayLike) -> None:
-    if not np.isfinite(values).all():
-        raise InputError(f"{name} = {np.asarray(values)}: expected finite numbers")

@@ -20,9 +20,8 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.world.fork import forked
 from mars2d.world.record import Record
 from mars2d.world.simulation import Simulation
-from mars2d.world.state import Addons
+from mars2d.world.state import Addons, Uncopied
 from mars2d.world.surroundings import Around
-from mars2d.world.uncopied import Uncopied
 from mars2d.world.views import PositionsView, PropView, RobotView, alone, unknown, unseen
 
 Float = NDArray[np.float64]

@@ -27,9 +27,9 @@ class Stick(NamedTuple):
         return Stick(share * self.across, share * self.ahead, self.turn)
 
     def command(self, drive: Drive) -> tuple[float, ...]:
-        """Return the command of a drive that it asks for; it turns those of three inputs alone."""
+        """Return the command of a drive that it asks for; see `Drive.second_stick`."""
         stick = self.within() if drive.frame == "world" else self
-        return drive.steered(*stick[: 3 if len(drive.inputs) > 2 else 2])
+        return drive.steered(*stick[: 3 if drive.second_stick else 2])
 
 
 def ramped(stick: Stick, wanted: Stick, duration: float) -> Stick:

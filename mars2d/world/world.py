@@ -8,7 +8,6 @@ from typing import Any
 from mars2d.core.description import wrong
 from mars2d.core.streams import check_seed
 from mars2d.core.through import through
-from mars2d.record.columns import Column, Storage
 from mars2d.record.energy import Energy, Momentum
 from mars2d.record.recorder import Recorder
 from mars2d.scenario.scenario import Scenario
@@ -32,10 +31,9 @@ class World(WorldView):
     scenario: what is simulated. control: the law of the whole team, a function or generator of the
     world; a robot's own controller overrides its column. seed: of all random streams. filename:
     the experiment's file, for the record. watch: called with the world once a control step, between
-    sensing and control: to draw, to wait, to count. storage: what keeps the columns of the record,
-    in memory or, with `mars2d.record.columns.Scratch`, in files. options: the options that the
-    experiment was opened with, for the record. record: False keeps no record, as learners want;
-    `world.history` is empty then.
+    sensing and control: to draw, to wait, to count. options: the options that the experiment was
+    opened with, for the record. record: False keeps no record, as learners want; `world.history` is
+    empty then.
 
     Laws are given a `WorldView`, which has no more than that class; add-ons and watchers are given
     the World.
@@ -49,14 +47,12 @@ class World(WorldView):
         *,
         filename: str = "",
         watch: Watcher | None = None,
-        storage: Storage = Column,
         options: Mapping[str, Any] | None = None,
         record: bool = True,
     ) -> None:
         if not isinstance(scenario, Scenario):
             raise wrong("World.scenario", scenario, "a Scenario")
-        kept = storage if record else None
-        super().__init__(Simulation(scenario, check_seed(seed), filename, kept, options or {}))
+        super().__init__(Simulation(scenario, check_seed(seed), filename, record, options or {}))
         self.watch = watch
         view = WorldView(self._simulation)
         positions = self.scenario.sees == "positions"
@@ -66,8 +62,8 @@ class World(WorldView):
     def reset(self, seed: int | None = None, scenario: Scenario | None = None) -> None:
         """Start again, as a new World would: the run after it is the same to the bit.
 
-        seed, scenario: those from now on; None: those of the present run. The law of the team, the
-        watcher and the storage stay. What was kept of the run before, such as its robots, record
+        seed, scenario: those from now on; None: those of the present run. The law of the team and
+        the watcher stay. What was kept of the run before, such as its robots, record
         and add-ons, does not change any more. Raises InputError within a step.
         """
         before = self._simulation
@@ -79,9 +75,8 @@ class World(WorldView):
             before.seed if seed is None else seed,
             filename=before.filename,
             watch=before.watch,
-            storage=before.storage or Column,
             options=before.recorder.options,
-            record=before.storage is not None,
+            record=before.recorder.keeps,
         )
 
     @property

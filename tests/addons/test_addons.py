@@ -49,15 +49,6 @@ def test_in_a_scenario_an_addon_is_frozen_and_in_a_world_it_is_not():
         scenario.addons[0].steps = 1
 
 
-def test_worlds_work_on_copies_of_their_own():
-    scenario = Scenario(addons=[Counter()])
-    first, second = World(scenario), World(scenario)
-    first.step()
-    first.step()
-    assert (first.addons.counter.steps, second.addons.counter.steps) == (2, 0)
-    assert scenario == Scenario(addons=[Counter()])
-
-
 def test_an_addon_that_fails_is_named_with_its_line():
     class Fragile(Addon):
         def on_step(self, world):
@@ -152,14 +143,3 @@ def test_a_map_takes_walls_of_several_corners_that_stay_open():
     world = World(Scenario(addons=[corridor]))
     assert world.surroundings.ray((0, 0), 0.0, 9.0, 0) == pytest.approx(4)
     assert world.surroundings.ray((0, 0), np.pi / 2, 9.0, 0) == pytest.approx(1)
-
-
-def test_a_wall_is_checked_as_outlines_are_but_may_cross_itself():
-    Map(walls=[[(0, 0), (2, 2), (2, 0), (0, 2)]])
-    for walls, message in [
-        ([(0, 0), (1, 0)], "one more pair of brackets"),
-        ([[(0, 0)]], "at least 2"),
-        ([[(0, 0), (0, 0), (1, 1)]], "vertices 0 and 1 are the same"),
-    ]:
-        with pytest.raises(InputError, match=rf"Map\.walls.*{message}"):
-            Map(walls=walls)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import json
 import math
 
@@ -12,27 +11,21 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import mars2d
-from mars2d import Addon, Holonomic, InputError, LawError, Record, Robot, Scenario, World
-from mars2d.addons import Burst, Communication, Map
+from mars2d import Holonomic, InputError, LawError, Record, Robot, Scenario, World
+from mars2d.addons import Burst, Communication
 from mars2d.core.scene import Arrow, Line
-from mars2d.output.layers.messages import LOST_LINK, messages
-from mars2d.output.raster.picture import paint_frame
+from mars2d.output.layers.messages import messages
 from mars2d.record.message import (
     DELIVERED,
     LOST,
     MAX_BYTES,
-    MESSAGE,
     ON_ITS_WAY,
     OUT_OF_REACH,
     OVER_BANDWIDTH,
-    STATUS,
     Message,
     as_text,
 )
-from mars2d.scenario import serialize
-from mars2d.scenario.experiment import open_experiment, open_module
-from mars2d.scenario.neighbours import Everyone, Graph, Nearest, Neighbourhood, Within
-from mars2d.world.loop import simulate
+from mars2d.scenario.neighbours import Everyone, Nearest, Neighbourhood, Within
 from mars2d.world.verify import rerun
 from tests.cases import each_case
 
@@ -99,16 +92,6 @@ def test_what_is_sent_is_in_the_inbox_at_the_next_control_step_and_at_that_alone
     assert heard(world) == [[], []]
 
 
-def test_a_message_says_who_sent_it_and_when():
-    world = World(team(2, robot={"name": None}))
-    for _ in range(3):
-        stand(world)
-    world.robots[1].send([1, 2], to=0)
-    stand(world)
-    world.observe()
-    assert world.robots[0].inbox == (Message(1, "robot1", 3 * 0.1, [1, 2]),)
-
-
 @each_case(
     ("to", "receivers"),
     [
@@ -126,16 +109,13 @@ def test_a_message_goes_to_all_or_to_those_named_by_index_or_name(to, receivers)
 @each_case(
     ("to", "words"),
     [
-        ("robot11", ["robot.send(to='robot11'): no robot is called so", "did you mean 'robot1'?"]),
-        ("chest", ["no robot is called so; known: robot0, robot1, robot2"]),
-        (3, ["robot.send(to=3): no such robot; expected an index from 0 to 2"]),
-        (-1, ["expected an index from 0 to 2"]),
-        (0, ["robot.send(to=0): robot0 can't send to itself"]),
+        (
+            "robot11",
+            ["robot.send(to='robot11'): there is no robot 'robot11'; did you mean 'robot1"],
+        ),
+        (3, ["robot.send(to=3): there is no robot 3; they are 0 to 2"]),
         ("robot0", ["robot0 can't send to itself"]),
-        ([1, 0], ["robot.send(to=0): robot0 can't send to itself"]),
-        (1.0, ["expected a robot's index or name, a list of these, or None for all in reach"]),
-        (True, ["robot.send(to=True): expected a robot's index"]),
-        ([[1]], ["robot.send(to=[1]): expected a robot's index"]),
+        ([[1]], ["robot.send(to=[[1]]): expected a robot's index"]),
     ],
 )
 def test_a_receiver_that_is_none_is_an_error_of_the_law(to, words):
@@ -150,30 +130,6 @@ def test_without_the_addon_robots_cannot_talk():
     for use in (lambda: world.robots[0].send("x"), lambda: world.robots[0].inbox):
         with pytest.raises(LawError, match=r"add Communication\(\) to Scenario.addons"):
             use()
-
-
-@each_case("sees", ["full", "partial", "positions", "sensors"])
-def test_whatever_a_law_sees_it_may_talk(sees):
-    got = []
-
-    def law(robot):
-        got.extend(robot.inbox)
-        robot.send(robot.index)
-        return STILL
-
-    mars2d.run(team(2, robot={"controller": law, "sees": sees}, stop_time=0.1))
-    assert [message.content for message in got] == [1, 0]
-
-
-def test_addons_may_send_in_the_name_of_robots_before_the_laws_do():
-    class Herald(Addon):
-        def on_step(self, world):
-            world.robots[0].send(f"herald {world.iteration}")
-
-    world = World(team(2, addons=[Herald(), Communication()]))
-    stand(world)
-    world.observe()
-    assert contents(world.robots[1]) == ["herald 0"]
 
 
 # -- contents -------------------------------------------------------------------------------------
@@ -217,27 +173,17 @@ def test_what_json_knows_arrives_as_it_was(content):
 
 LOOP: list = [1]
 LOOP.append({"again": LOOP})
-DEEP: list = []
-for _ in range(40):
-    DEEP = [DEEP]
 
 
 @each_case(
     ("content", "words"),
     [
-        ({1, 2}, ["content = {1, 2} can't be recorded", "lists, tuples and dicts"]),
-        ({"goal": object()}, ["content['goal'] = <object", "can't be recorded"]),
-        ([1, print], ["content[1] = <built-in function print>", "numbers, text"]),
-        (1j, ["content = 1j can't be recorded"]),
+        ({"goal": object()}, ["it holds <object", "can't be recorded", "lists, tuples and dicts"]),
         (np.array([1j]), ["can't be recorded"]),
-        (np.array([None]), ["can't be recorded"]),
-        (np.datetime64("2020-01-01"), ["can't be recorded"]),
         (b"bytes", ["can't be recorded"]),
-        ({1: "a"}, ["a key of content = 1", "text as keys"]),
-        (LOOP, ["content[1]['again']", "it holds itself"]),
-        (DEEP, ["more than 32 lists and dicts"]),
+        (LOOP, ["can't be recorded"]),
         ("x" * MAX_BYTES, [f"{MAX_BYTES + 2} bytes, of at most {MAX_BYTES}"]),
-        ("\ud800", ["half a character"]),
+        ("\ud800", ["can't be recorded"]),
     ],
 )
 def test_what_cannot_be_recorded_cannot_be_sent(content, words):
@@ -263,18 +209,6 @@ def test_each_receiver_has_a_copy_of_its_own():
 # -- in reach -------------------------------------------------------------------------------------
 
 
-def test_to_all_in_reach_has_a_row_for_each_of_those_and_to_a_name_in_any_case():
-    def say(world):
-        world.robots[0].send("all")
-        world.robots[0].send("you", to=[1, 2])
-
-    record = talking(team(3, talk=Communication(range=1.5), stop_time=0.1), say)
-    first = record.messages[record.messages["time"] == 0.0]
-    assert first["receiver"].tolist() == [1, 1, 2]
-    assert first["status"].tolist() == [DELIVERED, DELIVERED, OUT_OF_REACH]
-    assert np.isnan(first["arrival"]).tolist() == [False, False, True]
-
-
 def test_who_is_in_reach_is_judged_when_the_message_is_sent():
     runner = {"robot": {"drive": Holonomic(max_linear_speed=100.0)}}
     world = World(team(2, talk=Communication(range=1.0, delay=0.3), **runner))
@@ -287,30 +221,6 @@ def test_who_is_in_reach_is_judged_when_the_message_is_sent():
     assert heard(world)[1] == ["near"]
     stand(world)
     assert heard(world)[1] == []
-
-
-def test_a_wall_a_prop_or_a_robot_in_between_breaks_the_line_of_sight():
-    blocked = {
-        "wall": {"addons": [Map([[(0.5, -1), (0.5, 1)]])]},
-        "prop": {"props": [mars2d.bodies.props.Box(pose=(0.5, 0, 0), length=0.1, width=0.1)]},
-        "robot": {"third": Robot(pose=(0.5, 0, 0), diameter=0.2)},
-        "nothing": {"addons": [Map([[(0.5, 0.3), (0.5, 1)]])]},
-    }
-    for what, fields in blocked.items():
-        pair = [
-            Robot(pose=(0, 0, 0)),
-            Robot(pose=(1, 0, 0)),
-            *([fields["third"]] if "third" in fields else []),
-        ]
-        for sight in (True, False):
-            talk = Communication(line_of_sight=sight)
-            others = {"props": fields.get("props", [])}
-            scene = team(robots=pair, addons=[*fields.get("addons", []), talk], **others)
-            world = World(scene)
-            world.robots[0].send("x", to=1)
-            stand(world)
-            through = not sight or what == "nothing"
-            assert heard(world)[1] == (["x"] if through else []), what
 
 
 @each_case("seed", range(4))
@@ -379,33 +289,6 @@ def test_a_lost_message_never_arrives_and_the_sender_is_not_told():
     assert np.isnan(world.record.messages["arrival"]).all()
 
 
-def test_losses_are_drawn_link_by_link_in_the_order_of_senders_and_receivers():
-    def say(world):
-        for i in (2, 0, 1):
-            world.robots[i].send(i)
-
-    record = talking(team(4, talk=Communication(loss=0.3, range=2.0), stop_time=3.0), say, seed=8)
-    drawn = World(record.scenario, seed=8).stream("add-on communication")
-    assert lost(record).tolist() == [drawn.random() < 0.3 for _ in record.messages]
-
-
-def test_a_perfect_channel_draws_no_random_numbers():
-    class Watch(Communication):
-        def on_stop(self, world):
-            drawn.append(
-                self.rng.bit_generator.state != world.stream("add-on watch").bit_generator.state
-            )
-
-    drawn: list[bool] = []
-    for fields in (
-        {},
-        {"range": 5.0, "delay": 0.3, "bandwidth": 9, "line_of_sight": True},
-        {"loss": 0.1},
-    ):
-        talking(team(2, talk=Watch(**fields)), to_one)
-    assert drawn == [False, False, True]
-
-
 BURST = Burst(good=2.5, bad=0.5)
 LINKS = 20
 
@@ -467,20 +350,6 @@ def test_a_bandwidth_lets_as_many_bytes_through_at_each_sampling_time():
     assert got == {0.1: 20 * 310, 0.01: 20 * 310}
 
 
-def test_what_is_sent_as_often_meets_the_same_channel_at_each_sampling_time():
-    def say(world):
-        if round(world.time * 100) % 10 == 0:
-            world.robots[0].send("x" * world.rng.integers(5, 60), to=[1, 2])
-
-    talk = Communication(bandwidth=310, delay=0.25, burst=BURST)
-    fates = []
-    for dt in (0.1, 0.01):
-        rows = talking(team(3, talk=talk, sampling_time=dt, stop_time=60.0), say, seed=3).messages
-        fates.append((rows["size"].tolist(), np.maximum(rows["status"], DELIVERED).tolist()))
-    assert fates[0] == fates[1]
-    assert {LOST, OVER_BANDWIDTH, DELIVERED} == set(fates[0][1])
-
-
 # -- order and seeds ------------------------------------------------------------------------------
 
 
@@ -522,21 +391,6 @@ def chatter() -> Record:
     return talking(team(3, talk=talk), say, seed=5)
 
 
-def test_messages_are_rows_with_their_contents_beside_them(chatter):
-    rows = chatter.messages
-    assert rows.dtype == MESSAGE
-    assert {STATUS[s] for s in rows["status"]} == {
-        "on its way",
-        "delivered",
-        "lost",
-        "out of reach",
-    }
-    assert np.all(np.diff(rows["time"]) >= 0)
-    for row in rows:
-        assert row["size"] == len(chatter.contents[row["content"]].encode())
-    assert json.loads(chatter.contents[0]) == {"at": [0.0, 0.0, 0.0], "note": "ü"}
-
-
 def test_messages_and_contents_come_back_from_a_file_to_the_last_bit(chatter, tmp_path):
     again = mars2d.load(chatter.save(tmp_path / "a.npz"))
     assert again.messages.tobytes() == chatter.messages.tobytes()
@@ -549,55 +403,6 @@ def test_messages_and_contents_come_back_from_a_file_to_the_last_bit(chatter, tm
         assert ours.tobytes() == theirs.tobytes()
 
 
-def test_a_burst_and_a_graph_come_back_from_plain_data():
-    scenario = team(
-        2, talk=Communication(burst=Burst(good=0.3)), neighbours=Graph([[0, 1], [1, 0]])
-    )
-    again, missing = serialize.to_scenario(
-        json.loads(json.dumps(serialize.from_description(scenario)))
-    )
-    assert again.addons == scenario.addons
-    assert again.neighbours == scenario.neighbours
-    assert missing == ()
-    nearest = scenario.replace(neighbours=Nearest(1))
-    assert serialize.to_scenario(serialize.from_description(nearest))[0].neighbours == Nearest(1)
-
-
-def test_the_digest_covers_each_field_of_messages_and_their_contents(chatter):
-    other = ("null", *chatter.contents[1:])
-    changes: list[dict] = [{}, {"contents": other}, {"contents": ("", *other)}]
-    for field in MESSAGE.names:
-        changed = chatter.messages.copy()
-        changed[field] += 1
-        changes.append({"messages": changed})
-    digests = {dataclasses.replace(chatter, **change).digest for change in changes}
-    assert len(digests) == len(changes)
-
-
-def test_as_long_as_nobody_speaks_the_digest_is_that_without_the_addon():
-    digests = {
-        mars2d.run(Scenario(robots=2, stop_time=1, addons=addons)).digest
-        for addons in ([], [Communication(loss=0.5, delay=1)])
-    }
-    assert len(digests) == 1
-
-
-def test_frames_of_a_record_have_the_messages_of_those_of_the_run():
-    talk = Communication(loss=0.3, delay=0.25, range=1.5)
-    world = World(team(3, talk=talk), seed=4)
-    live = []
-    while not world.over:
-        live.append(world.frame.messages)
-        for robot in world.robots:
-            robot.send(robot.index, to=[i for i in range(3) if i != robot.index])
-        stand(world)
-    record = world.record
-    assert len(live) == len(record)
-    for row, rows in enumerate(live):
-        assert rows.tobytes() == record.frame(row).messages.tobytes(), row
-    assert not len(live[0])
-
-
 # -- descriptions ---------------------------------------------------------------------------------
 
 
@@ -605,15 +410,9 @@ def test_frames_of_a_record_have_the_messages_of_those_of_the_run():
     ("make", "words"),
     [
         (lambda: Communication(loss=1.5), "Communication.loss = 1.5: expected a number >= 0"),
-        (lambda: Communication(range=0), "Communication.range = 0: expected a number > 0"),
         (lambda: Communication(delay=-1), "Communication.delay = -1"),
-        (lambda: Communication(bandwidth=0), "Communication.bandwidth = 0: expected a number >= 1"),
-        (lambda: Communication(burst=0.1), "burst = 0.1: expected a Burst, such as Burst("),
         (lambda: Communication(burst=Burst), "write Burst(...)"),
-        (lambda: Communication(burst=Burst(), loss=0.1), "leave one of both out"),
-        (lambda: Communication(los=0.1), "did you mean 'loss'?"),
         (lambda: Burst(good=0), "Burst.good = 0: expected a number > 0 and <= 1e+06 [s]"),
-        (lambda: Burst(loss_bad=2), "Burst.loss_bad = 2"),
         (lambda: team(addons=[Communication(), Communication(name="a")]), "robots talk over one"),
     ],
 )  # fmt: skip
@@ -651,62 +450,4 @@ def test_a_message_that_arrives_is_an_arrow_from_rim_to_rim():
     assert arrow.fill.startswith(world.scenario.colors[0])
 
 
-def test_a_message_is_drawn_where_it_is_on_its_way():
-    world = spoken(Communication(delay=0.4))
-    tips = [links(world)[1].tip[0]]
-    for _ in range(4):
-        stand(world)
-        tips += [shape.tip[0] for shape in links(world) if isinstance(shape, Arrow)]
-    assert tips == pytest.approx([0.15 + 1.7 * k / 4 for k in range(1, 5)])
-
-
-@each_case("talk", [Communication(loss=1.0), Communication(range=1.0), Communication(bandwidth=2)])
-def test_what_does_not_arrive_is_a_broken_line_with_a_cross(talk):
-    shapes = links(spoken(talk))
-    assert [shape.style for shape in shapes] == ["--", "-", "-"]
-    assert all(shape.stroke.startswith(LOST_LINK) for shape in shapes)
-
-
-def pixels(surface) -> np.ndarray:
-    import pygame
-
-    return pygame.surfarray.array3d(surface)
-
-
-def test_pictures_show_messages_and_without_any_nothing_changes():
-    talkers, silent = spoken(Communication()), World(team(2, gap=2.0))
-    stand(silent)
-    size = 500, 400
-    there, gone = (pixels(paint_frame(world.frame, size)) for world in (talkers, silent))
-    assert np.any(there != gone, axis=2).sum() > 100
-    hushed = dataclasses.replace(talkers.frame, messages=silent.frame.messages)
-    assert np.array_equal(pixels(paint_frame(hushed, size)), gone)
-
-
 # -- examples -------------------------------------------------------------------------------------
-
-
-def run(name: str, seed: int = 0, **options):
-    experiment = open_experiment(name, options, seed=seed)
-    record = simulate(experiment).record
-    return {p.name: p for p in experiment.source.checks(record)}, record
-
-
-@each_case(
-    ("name", "seed", "loss", "count"),
-    [
-        *(("rendezvous", 2, loss, count) for loss, count in ((0.0, 4), (0.8, 2))),
-        *(("token_ring", 1, loss, 3) for loss in (0.0, 0.3, 0.7)),
-    ],
-)
-def test_robots_meet_and_pass_the_token_on_at_any_loss(name, seed, loss, count):
-    predictions, _ = run(name, seed, loss=loss)
-    assert len(predictions) == count
-    assert all(p.ok for p in predictions.values())
-
-
-def test_who_loses_much_meets_later():
-    places = np.transpose(open_module("rendezvous").PLACES)
-    ends = [run("rendezvous", loss=loss, stop_time=30.0)[1].pose[-1, :2] for loss in (0.0, 0.8)]
-    left = [np.ptp(end - places, axis=1).max() for end in ends]
-    assert left[1] > 3 * left[0]

@@ -1,10 +1,9 @@
-"""The add-on Density: functions and images, what is wrong with them, and how they look."""
+"""The add-on Density: functions, what is wrong with them, and how they look."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
-from PIL import Image
 
 import mars2d
 from mars2d import InputError, LawError, Robot, Scenario, World
@@ -13,15 +12,6 @@ from mars2d.core.scene import Image as Pixels
 from mars2d.output.layers.addons import floor
 from tests.cases import each_case
 
-
-@pytest.fixture
-def picture(tmp_path, monkeypatch):
-    """Two rows and two columns in the current folder: black, grey; white, white."""
-    monkeypatch.chdir(tmp_path)
-    Image.fromarray(np.array([[0, 102], [255, 255]], dtype=np.uint8)).save("p.png")
-    return Density(image="p.png", bounds=(0, 2, 0, 2))
-
-
 # -- what it is -------------------------------------------------------------------------------
 
 
@@ -29,18 +19,6 @@ def test_a_function_is_called_with_arrays_of_coordinates():
     density = Density(lambda x, y: x * x + y)
     assert density.of([[1, 2, 3], [0, 1, 2]]).tolist() == [1, 5, 11]
     assert density.of(np.empty((2, 0))).shape == (0,)
-
-
-def test_an_image_is_dense_where_it_is_dark(picture):
-    assert picture.of([[0.5, 1.5, 0.5, 1.5], [1.5, 1.5, 0.5, 0.5]]) == pytest.approx([1, 0.6, 0, 0])
-
-
-def test_colours_count_by_how_bright_they_look(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    values = np.array([[[255, 0, 0], [0, 255, 0], [0, 0, 255]]], dtype=np.uint8)
-    Image.fromarray(values).save("p.png")
-    density = Density(image="p.png", bounds=(0, 3, 0, 1))
-    assert density.of([[0.5, 1.5, 2.5], [0.5] * 3]) == pytest.approx([0.701, 0.413, 0.886])
 
 
 def test_robots_gather_where_it_is_dense():
@@ -61,14 +39,8 @@ def test_robots_gather_where_it_is_dense():
 @each_case(
     ("fields", "message"),
     [
-        ({}, "Density: expected a function"),
-        (
-            {"function": abs, "image": "p.png", "bounds": (0, 1, 0, 1)},
-            r"expected a function|either",
-        ),
         ({"function": 3}, "Density.function = 3: expected a function of two arguments"),
         ({"function": lambda x: x}, r"Density.function = .*: .* exactly two arguments, x \[m\]"),
-        ({"function": max, "bounds": (0, 1, 0, 1)}, "Density.bounds is given without an image"),
         ({"function": max, "color": "rde"}, "Density.color = 'rde': .*did you mean 'red'"),
     ],
 )
@@ -81,11 +53,8 @@ def test_a_density_that_can_not_be_is_an_error(fields, message):
     ("phi", "message"),
     [
         (lambda x, y: x, r"array of numbers >= 0, .*; it is -[\d.]+ at \(-[\d.]+, -?[\d.]+\)"),
-        (lambda x, y: np.sqrt(x + 5 - 10 * (y > 4)), r"; it is nan at "),
         (lambda x, y: np.where(y > 3, np.inf, 1), "; it is inf at "),
-        (lambda x, y: np.ones(3), r"as many as x has, \(40000,\); it returned shape \(3,\)"),
         (lambda x, y: ["much"], "it returned .'much'."),
-        (lambda x, y: None, "it returned None"),
         (lambda x, y: 0 * x, "Density.function: it is 0 everywhere in the workspace"),
     ],
 )
@@ -94,18 +63,6 @@ def test_what_a_function_returns_is_looked_at_when_a_world_is_made(phi, message)
     with pytest.raises(InputError, match=r"^Density\.function: .*" + message.split(": ")[-1]) as e:
         World(Scenario(addons=[Density(phi)]))
     assert not isinstance(e.value, LawError)
-
-
-def test_an_image_that_is_not_there_or_white_is_an_error(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    with pytest.raises(InputError, match=r"^Density.image = 'gone.png': there is no such file"):
-        World(Scenario(addons=[Density(image="gone.png", bounds=(0, 1, 0, 1))]))
-    Image.new("L", (4, 4), "white").save("white.png")
-    with pytest.raises(InputError, match=r"^Density.image = 'white.png': it is 0 everywhere"):
-        World(Scenario(addons=[Density(image="white.png", bounds=(-5, 5, -5, 5))]))
-    Image.new("L", (4, 4), "black").save("black.png")
-    with pytest.raises(InputError, match=r"^Density.image = 'black.png': it is 0 everywhere"):
-        World(Scenario(addons=[Density(image="black.png", bounds=(6, 7, 0, 1))]))
 
 
 # -- how it looks -----------------------------------------------------------------------------

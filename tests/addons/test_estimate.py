@@ -65,13 +65,6 @@ def test_the_addon_knows_what_the_function_says():
     assert world.addons.estimate.covariance == pytest.approx(expected, rel=1e-9)
 
 
-def test_to_turn_on_the_spot_makes_one_unsure_of_the_heading_alone():
-    turns = [(1.0, 2.0, angle) for angle in (0.0, np.pi, 3 * np.pi)]  # the last a whole turn
-    spread = covariances(turns, AXLE, DRIFT)[-1]
-    assert spread[2, 2] == pytest.approx(DRIFT**2 * 3 * np.pi * AXLE / (2 * AXLE**2))
-    assert spread[0, 0] == pytest.approx(0.0, abs=DRIFT**2)
-
-
 # -- the ellipse --------------------------------------------------------------------------------
 
 
@@ -98,18 +91,6 @@ def test_the_estimate_is_drawn_in_the_worlds_frame_whatever_its_origin():
     ]
     assert ends[0] == pytest.approx(ends[1])
     assert ends[0] == pytest.approx((2.0, 6.0))
-
-
-def test_to_draw_changes_nothing():
-    def digest(draw):
-        world = World(Scenario(robots=[runner()], addons=[Estimate()], stop_time=2.0))
-        while not world.over:
-            world.step([[0.3], [0.1]])
-            if draw:
-                drawn(world)
-        return world.record.digest, world.addons.estimate.covariance.tolist()
-
-    assert digest(draw=True) == digest(draw=False)
 
 
 def test_readings_that_are_lost_are_left_out():

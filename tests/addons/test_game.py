@@ -1,7 +1,5 @@
 """The add-on Game: roles, captures, score, who has won; and robots that are held."""
 
-import dataclasses
-
 import numpy as np
 import pytest
 
@@ -147,17 +145,6 @@ def test_contacts_with_others_are_no_captures():
 # -- records ------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("later", "winner"), [(1e-14, "pursuer"), (0.05, None)])
-def test_a_capture_at_the_last_instant_counts_whose_time_is_rounded_up(later, winner):
-    """The last row is that of 3.4 s; what comes in the control step after it is in no row."""
-    record = finished(chase()).record
-    contacts = record.contacts.copy()
-    assert len(contacts) == 1
-    contacts["time"] = record.time[-1] + later
-    changed = dataclasses.replace(record, contacts=contacts)
-    assert record.scenario.addons[0].outcome(changed).winner == winner
-
-
 # -- what is refused ----------------------------------------------------------------------------
 
 
@@ -165,18 +152,9 @@ def test_a_capture_at_the_last_instant_counts_whose_time_is_rounded_up(later, wi
     ("roles", "words"),
     [
         ({"pursuer": ["red"]}, "two roles"),
-        ({"a": [0], "b": [1], "c": [2]}, "two roles"),
-        ({"pursuer": ["red"], "evader": []}, "nobody has this role"),
         ({"pursuer": "red", "evader": ["blue"]}, r"Game.roles\['pursuer'\] = 'red'"),
-        ({"pursuer": [1.5], "evader": ["blue"]}, "names or indices"),
-        ({"pursuer": [True], "evader": ["blue"]}, "names or indices"),
         ({1: ["red"], "evader": ["blue"]}, "two roles"),
-        ([("a", [0]), ("a", [1])], "two roles"),
-        (7, "two roles"),
-        ({"pursuer": ["rde"], "evader": ["blue"]}, "no robot 'rde'; did you mean 'red'"),
         ({"pursuer": [5], "evader": ["blue"]}, "no robot 5; they are 0 to 1"),
-        ({"pursuer": [-1], "evader": ["blue"]}, "no robot -1"),
-        ({"pursuer": ["red"], "evader": [0]}, "red is pursuer and evader"),
         ({"pursuer": ["red", 0], "evader": ["blue"]}, "red stands twice as pursuer"),
     ],
 )

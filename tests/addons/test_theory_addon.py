@@ -52,26 +52,6 @@ def test_theory_is_painted_only_on_request():
     assert violet(paint_frame(asked.frame, theory=False)) == 0
 
 
-def test_figures_at_several_times_show_theory_in_each_panel():
-    from matplotlib.patches import Circle as Disc
-
-    from mars2d.output.figures.figure import plot_snapshots
-
-    def discs(theory):
-        animation = Animation(theory=theory)
-        record = mars2d.run(scenario(addons=[Theory(circle)], animation=animation), control=east)
-        panels = plot_snapshots(record, [0.0, 1.0]).axes
-        return [sum(isinstance(p, Disc) and p.radius == 1.5 for p in ax.patches) for ax in panels]
-
-    assert discs(theory=False) == [0, 0]
-    assert discs(theory=True) == [1, 1]
-
-
-def test_theory_does_not_change_a_run():
-    plain = mars2d.run(scenario(), control=east)
-    assert mars2d.run(scenario(addons=[Theory(circle)]), control=east).digest == plain.digest
-
-
 def test_a_saved_record_names_the_theory_that_it_lacks(tmp_path):
     record = mars2d.run(scenario(addons=[Theory(circle), Beacon((1, 2))]), control=east)
     loaded = load(record.save(tmp_path / "run.npz"))

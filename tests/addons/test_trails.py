@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d import Animation, InputError, Robot, Scenario, World
+from mars2d import InputError, Robot, Scenario
 from mars2d.addons import Trails
 from mars2d.core.scene import Line, rgb
 from mars2d.output.layers import addons as drawn
@@ -50,14 +50,6 @@ def test_a_trail_goes_back_for_its_duration_and_ends_at_the_robot():
     assert np.all(points[:, 1] == 0.0)
 
 
-def test_at_first_a_trail_is_as_long_as_the_way_so_far():
-    record = record_of(Trails(duration=2.0), robots=1)
-    assert lines(record.frame(0)) == []
-    points = np.concatenate([line.points for line in lines(record.frame(10))])
-    assert points[:, 0].min() == 0.0
-    assert points[:, 0].max() == pytest.approx(PACE)
-
-
 def test_a_trail_fades_out_without_gaps():
     record = record_of(Trails(duration=2.0), robots=1)
     drawn = lines(record.frame(50))
@@ -69,42 +61,10 @@ def test_a_trail_fades_out_without_gaps():
         assert before.points[-1].tolist() == after.points[0].tolist()
 
 
-def test_only_the_robots_that_are_named_have_one_in_their_colours():
-    record = record_of(Trails(robots=["robot1"], width=4.0))
-    drawn = lines(record.frame(50))
-    assert drawn[-1].stroke == "#db7626"  # 85 % of #d55e00, over white
-    assert {line.width for line in drawn} == {4.0}
-    assert all(np.all(line.points[:, 1] == 1.0) for line in drawn)
-
-
-def test_a_window_a_replay_and_a_figure_show_the_same_trails(tmp_path):
-    scenario = Scenario(
-        robots=[Robot(pose=(-2, 0, 0), controller=ahead)],
-        addons=[Trails(duration=1.5)],
-        animation=Animation(wake=False),
-        stop_time=3,
-    )
-    world = World(scenario)
-    while not world.over:
-        world.step()
-    loaded = mars2d.load(world.record.save(tmp_path / "run.npz"))
-    assert loaded.scenario.addons == scenario.addons
-    live, replayed = lines(world.frame), lines(loaded.frame(-1))
-    assert len(live) == len(replayed) > 5
-    for a, b in zip(live, replayed, strict=True):
-        assert (a.stroke, a.points.tolist()) == (b.stroke, b.points.tolist())
-    with_trails = loaded.plot().lines
-    plain = mars2d.run(scenario.replace(addons=[])).plot().lines
-    assert len(with_trails) - len(plain) == len(live)
-
-
 @each_case(
     ("fields", "message"),
     [
         ({"duration": 0}, r"Trails.duration = 0: expected a number > 0"),
-        ({"robots": "robot0"}, r"Trails.robots = 'robot0': expected a list of robots' names"),
-        ({"robots": []}, r"Trails.robots = \[\]: expected a list of robots' names"),
-        ({"robots": ["a", "a"]}, r"Trails.robots: 'a' stands there twice"),
         ({"width": -1}, r"Trails.width = -1: expected a number > 0"),
     ],
 )

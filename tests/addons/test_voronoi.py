@@ -7,11 +7,10 @@ import pytest
 import shapely
 
 import mars2d
-from mars2d import Holonomic, InputError, LawError, Robot, Scenario, World
+from mars2d import Holonomic, LawError, Robot, Scenario, World
 from mars2d.addons import Density, Voronoi
 from mars2d.core.scene import Circle, Line, Polygon, Scene
 from mars2d.geometry.voronoi import Tessellation
-from mars2d.output.raster.picture import paint_frame
 
 SQUARE = ((0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0))
 HOOK = ((0, 0), (4, 0), (4, 1.5), (1.5, 1.5), (1.5, 2.5), (4, 2.5), (4, 4), (0, 4))
@@ -60,21 +59,6 @@ def test_a_record_has_the_cells_that_the_law_saw():
     assert [(each.cost, each.centroids.tolist()) for each in again] == seen
 
 
-def test_a_saved_record_has_them_too(tmp_path):
-    record = mars2d.run(team(), control=lloyd)
-    record.save(tmp_path / "r.npz")
-    loaded = mars2d.load(tmp_path / "r.npz")
-    costs = [r.scenario.addons[0].of(r.frame(-1)).cost for r in (record, loaded)]
-    assert costs[0] == costs[1]
-
-
-def test_to_have_cells_changes_nothing_of_a_run():
-    plain = team().replace(addons=[])
-    still = [[0.1, 0.2, 0.3], [0, 0, 0.1]]
-    runs = [mars2d.run(s, control=lambda world: still) for s in (plain, team())]
-    assert (runs[0].pose == runs[1].pose).all()
-
-
 def test_a_robot_at_anothers_place_and_one_that_has_left_are_no_error():
     starts = [(0.8, 1), (1.2, 1), (3.9, 1)]
     scenario = team(starts, physics="ideal", on_exit="ignore", stop_time=4.0)
@@ -106,22 +90,6 @@ def test_the_only_density_of_a_scenario_weighs_the_cells():
     assert world.addons.voronoi.now.cost == world.scenario.addons[0].of(world.frame).cost
 
 
-def test_of_several_densities_the_named_one_counts():
-    densities = [Density(slope, name="slope"), Density(lambda x, y: 1 + y, name="rise")]
-    scenario = team(addons=densities)
-    with pytest.raises(InputError, match=r"Voronoi.density is missing: .* slope or rise"):
-        World(scenario)
-    named = scenario.replace(addons=[Voronoi(density="slope"), *densities])
-    masses = World(named).addons.voronoi.now.masses
-    assert masses.tolist() == Tessellation(np.transpose(STARTS), SQUARE, slope).masses.tolist()
-
-
-def test_a_name_that_no_density_has_is_an_error_with_the_nearest_one():
-    scenario = team().replace(addons=[Voronoi(density="hil"), Density(slope, name="hill")])
-    with pytest.raises(InputError, match=r"Voronoi.density = 'hil'.*did you mean 'hill'"):
-        World(scenario)
-
-
 def test_what_a_density_does_wrong_on_the_way_is_an_error_of_its_function():
     def hole(x, y):  # only looked at once robots are at work
         return np.where(np.abs(x - y) < 1e-3, np.nan, 1.0) if len(x) < 20_000 else 1.0 + 0 * x
@@ -151,24 +119,8 @@ def test_cells_are_drawn_in_their_robots_colours_with_an_edge_between_them():
     assert len(edges) == 3
 
 
-def test_a_cell_in_two_pieces_is_drawn_in_both():
-    shapes = drawn(team([(3.5, 1.0), (0.75, 3.25)], workspace=HOOK))
-    fills = [shape.fill for shape in shapes if isinstance(shape, Polygon)]
-    assert len(fills) == 3
-    assert len(set(fills)) == 2
-
-
 def test_theory_shows_the_centroids():
     scenario = team()
     circles = [shape for shape in drawn(scenario, "theory") if isinstance(shape, Circle)]
     found = Tessellation(np.transpose(STARTS), SQUARE)
     assert [circle.center for circle in circles] == [tuple(c) for c in found.centroids.T.tolist()]
-
-
-def test_cells_stand_in_pictures_films_and_replays(tmp_path):
-    record = mars2d.run(team(addons=[Density(slope)]), control=lloyd)
-    record.save(tmp_path / "r.npz")
-    loaded = mars2d.load(tmp_path / "r.npz")
-    pictures = [paint_frame(r.frame(-1), (400, 400), theory=True) for r in (record, loaded)]
-    assert [picture.get_size() for picture in pictures] == [(400, 400)] * 2
-    record.plot().figure.canvas.draw()

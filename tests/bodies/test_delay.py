@@ -69,32 +69,8 @@ def test_each_robot_has_a_delay_of_its_own(delays, sampling_time, count):
                 start += duration
 
 
-def test_robots_with_the_same_part_of_a_sampling_time_share_a_step():
-    line = DelayLine(np.array([0.0, 0.3, 0.25, 0.05, 0.15 + 1e-13, 1.0]), 0.1, np.zeros((2, 6)))
-    for k in range(20):
-        pieces = line.send(np.full((2, 6), float(k + 1)))
-        assert [duration for duration, _ in pieces] == pytest.approx([0.05, 0.05])
-    assert pieces[0][1][0].tolist() == [20, 17, 17, 19, 18, 10]
-    assert pieces[1][1][0].tolist() == [20, 17, 18, 20, 19, 10]
-
-
 def test_command_time_says_when_a_command_takes_effect():
     world = World(Scenario(command_delay=0.25, sampling_time=0.1, stop_time=1))
     while not world.over:
         world.step()
     assert np.array_equal(world.record.command_time, world.record.time + 0.25)
-
-
-def test_the_law_sees_the_command_it_issued_not_the_one_in_effect():
-    seen = []
-
-    def law(robot):
-        seen.append(float(robot.command[0]))
-        return 0.1 * (len(seen)), 0
-
-    scenario = Scenario(robots=[Robot(controller=law)], command_delay=5, stop_time=0.4)
-    world = World(scenario)
-    while not world.over:
-        world.step()
-    assert seen == pytest.approx([0, 0.1, 0.2, 0.3, 0.4])
-    assert world.pose[0, 0] == 0

@@ -7,7 +7,7 @@ from math import cos, exp, hypot, pi, sin, sqrt
 import numpy as np
 import pytest
 
-from mars2d import Holonomic, InputError, Robot, Unicycle, World
+from mars2d import InputError, Robot, Unicycle, World
 from mars2d.bodies.joints import Hinge, Rod, Rope, Spring
 from mars2d.bodies.props import Ball, Bar, Box, Puck
 from mars2d.core.materials import GRAVITY
@@ -107,18 +107,6 @@ def test_a_rod_keeps_its_length_and_a_stone_at_it_its_speed():
     assert turned == pytest.approx(world.time, rel=0.01)
 
 
-def test_a_rod_pushes_as_well_as_it_pulls():
-    world = endless(
-        [Robot()], [Box(pose=(1, 0, 0), ground_friction=0.3)], [Rod(a="robot0", b="box0")]
-    )
-    poses = drive(world, [[0.2], [0]], 3)
-    assert np.abs(apart(poses[:, :2, 0], poses[:, :2, 1]) - 1).max() < MILLIMETRE
-    assert world.effort[0] == pytest.approx(0.3 * GRAVITY / 5, rel=0.01)
-    poses = drive(world, [[-0.2], [0]], 3)
-    assert np.abs(apart(poses[:, :2, 0], poses[:, :2, 1]) - 1).max() < MILLIMETRE
-    assert world.prop_velocity[0, 0] == pytest.approx(-0.2, abs=1e-6)
-
-
 # -- springs --------------------------------------------------------------------------------
 
 
@@ -164,17 +152,6 @@ def test_the_anchors_of_a_hinge_stay_together_under_load():
     for command in ([[0.3], [0.5]], [[0.2], [-1]], [[-0.2], [0]], [[0.5], [0]]):
         poses = drive(world, command, 3)
         gap = apart(at(poses[:, :, 0], (-0.25, 0)), at(poses[:, :, 1], (0.25, 0)))
-        assert gap.max() < MILLIMETRE
-
-
-def test_a_strong_robot_tears_no_hinge_open():
-    strong = Robot(pose=(0, 0, 0), drive=Holonomic(max_force=200, max_linear_speed=1))
-    box = Box(pose=(0.5, 0, 0), length=0.2, width=0.2, ground_friction=1, mass=10)
-    hinges = [Hinge(a="robot0", b="box0", anchor_a=(0.25, 0), anchor_b=(-0.25, 0))]
-    world = endless([strong], [box], hinges)
-    for command in ([[0], [1]], [[1], [0]], [[0], [-1]]):
-        poses = drive(world, command, 1)
-        gap = apart(at(poses[:, :, 0], (0.25, 0)), at(poses[:, :, 1], (-0.25, 0)))
         assert gap.max() < MILLIMETRE
 
 
@@ -255,14 +232,10 @@ def test_a_puck_on_a_hinge_is_held_by_floor_and_hinge_at_once():
     ("joint", "said"),
     [
         (lambda: Rope(a="robot0", b="ball0", length=-1), "Rope.length = -1"),
-        (lambda: Rope(a="robot0", b="ball0", length=0.5), "start 1 m apart"),
         (lambda: Rod(a="robot0", b="ball0", length=2), "start 1 m apart"),
-        (lambda: Hinge(a="robot0", b="ball0"), "a hinge is one point"),
         (lambda: Rope(a="robot0", b="robot0"), "another body than a"),
         (lambda: Rope(a="robot0", b="bal0"), "did you mean 'ball0'"),
-        (lambda: Spring(a="robot0", b="ball0", stiffness=0), "Spring.stiffness = 0"),
         (lambda: Spring(a="robot0", b="ball0", damping=float("nan")), "Spring.damping = nan"),
-        (lambda: Hinge(a="ball0", anchor_b=(1, 0), limits=(1, 0)), "Hinge.limits"),
         (lambda: Rope(a="robot0", b="ball0", anchor_a=(1, 0)), "use a Hinge"),
     ],
 )

@@ -68,17 +68,6 @@ def test_a_unicycle_that_drives_straight_strays_alike_at_any_sampling_time(sampl
     strays(pose, time, v, s * v / sqrt(2), s * v / (b * sqrt(2)))
 
 
-@each_case("sampling_time", PERIODS)
-def test_much_noise_is_a_density_as_well(sampling_time):
-    v, b, s = 0.3, 0.1, 0.05 * sqrt(0.1)
-    pose, time = crowd(Unicycle(noise=s, wheel_semiaxis=b), (v, 0.0), sampling_time)
-    turn = s * v / (b * sqrt(2))
-    like(pose[2], 0, turn * sqrt(time))
-    ahead = 2 * v / turn**2 * (1 - exp(-(turn**2) * time / 2))
-    assert pose[0].mean() == pytest.approx(ahead, abs=MEAN * pose[0].std())
-    assert pose[1].mean() == pytest.approx(0, abs=MEAN * pose[1].std())
-
-
 @pytest.mark.slow
 @each_case("sampling_time", PERIODS)
 @each_case("command", ["wheels", "twist"])
@@ -90,16 +79,6 @@ def test_each_wheel_of_a_differential_drive_has_a_density_of_its_own(command, sa
     pose, time = crowd(drive, asked, sampling_time)
     omega = (right - left) / (2 * b)
     like(pose[2], omega * time, s * sqrt((left**2 + right**2) * time) / (2 * b))
-
-
-@each_case("sampling_time", PERIODS)
-def test_a_wheel_that_stands_has_no_noise_so_the_robot_turns_about_it(sampling_time):
-    b, s, rim = 0.15, 0.03, 0.29
-    drive = Differential(noise=s, wheel_semiaxis=b, wheel_radius=0.05)
-    pose, time = crowd(drive, (0.0, rim / 0.05), sampling_time)
-    like(pose[2], rim / (2 * b) * time, s * rim * sqrt(time) / (2 * b))
-    wheel = pose[:2] + b * np.array([-np.sin(pose[2]), np.cos(pose[2])])
-    assert wheel == pytest.approx(np.tile([[0.0], [b]], N), abs=1e-9)
 
 
 @each_case("sampling_time", PERIODS)
@@ -133,13 +112,6 @@ def test_a_car_on_a_bend_turns_as_far_as_it_is_told_with_the_noise_of_both(delta
     like(pose[2], v * tan(delta) / base * time, deviation)
 
 
-def test_at_its_limit_of_speed_a_robot_is_as_quick_on_average_as_it_is_told():
-    """A limit after the noise would cut off one half of it."""
-    drive = Holonomic(noise=0.2, max_linear_speed=0.5)
-    pose, time = crowd(drive, (3.0, 0.0), 0.025)
-    like(pose[0], 0.5 * time, 0.2 * 0.5 * sqrt(time))
-
-
 def test_what_is_drawn_does_not_depend_on_the_sampling_time_but_for_its_size():
     """The random streams are those of the robots, a pair of numbers for each control step."""
     ways = []
@@ -158,20 +130,3 @@ def test_what_is_drawn_does_not_depend_on_the_sampling_time_but_for_its_size():
     assert ways[0].std() == pytest.approx(1, rel=5 / sqrt(1200))
     assert abs(np.corrcoef(ways[0].T)[0, 1]) < 5 / sqrt(300)
     assert abs(np.corrcoef(ways[0][1:, 0], ways[0][:-1, 0])[0, 1]) < 5 / sqrt(300)
-
-
-def test_an_own_drive_finds_numbers_whose_variance_is_the_rate_of_control():
-    drawn = []
-
-    class Listening(Unicycle):
-        def disturb(self, command, normal):
-            drawn.append(normal.copy())
-            return command
-
-    robots = [Robot(pose=(k, 0, 0), drive=Listening(noise=0.5)) for k in range(50)]
-    world = World(Scenario(robots=robots, workspace=None, sampling_time=0.04))
-    for _ in range(40):
-        world.step(np.zeros((2, 50)))
-    numbers = np.ravel(drawn)
-    assert numbers.std() == pytest.approx(1 / sqrt(0.04), rel=5 / sqrt(2 * numbers.size))
-    assert numbers.mean() == pytest.approx(0, abs=5 * 5 / sqrt(numbers.size))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mars2d import Car, Drive, Holonomic, InputError, LawError, Omni, Robot, Scenario, World, load
+from mars2d import Drive, Holonomic, InputError, Omni, Robot, Scenario, World, load
 from mars2d.addons import Map
 from mars2d.core.quantity import Quantity
 from tests.cases import each_case
@@ -102,7 +102,6 @@ def test_teams_have_the_rows_of_the_drive_with_most_inputs(tmp_path):
     ("make", "message"),
     [
         (lambda: Omni(wheels=2), "Omni.wheels = 2: expected"),
-        (lambda: Omni(side_grip=0.5), "Omni.side_grip = 0.5: expected None"),
         (lambda: Omni(no_load_speed=1.0), "Omni.no_load_speed = 1.0: expected None"),
         (type("Bare", (Drive,), {"inputs": ()}), "Bare.inputs = .*: expected a tuple"),
     ],
@@ -110,17 +109,3 @@ def test_teams_have_the_rows_of_the_drive_with_most_inputs(tmp_path):
 def test_what_it_can_t_be_is_refused(make, message):
     with pytest.raises(InputError, match=message):
         make()
-
-
-@each_case(
-    ("drive", "returned", "message"),
-    [
-        (Omni(), (0.1, 0.2), r"expected three numbers, \(vx, vy, omega\)"),
-        (Pump(), (0.1, 0.2), r"expected one number, \(v\)"),
-        (type("Flat", (Car,), {"twist": lambda _, c: c})(), (0.1, 0.2), "twist returned .* three"),
-    ],
-)
-def test_another_number_of_numbers_is_named_with_the_inputs(drive, returned, message):
-    world = World(Scenario(robots=[Robot(drive=drive, controller=lambda _: returned)]))
-    with pytest.raises(LawError, match=message):
-        world.step()

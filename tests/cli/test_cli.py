@@ -64,7 +64,10 @@ def test_check_says_where_a_record_departs(tmp_path, capsys):
     pose[30:, 0, 1] += 0.25
     replace(record, pose=pose).save(tmp_path / "a.npz")
     assert cli.main(["check", str(tmp_path / "a.npz")]) == 1
-    assert "departs at row 30, at 3 s: follower1 is off by 0.25 m" in capsys.readouterr().err
+    assert (
+        "departs at row 30, at 3 s: the pose of follower1 is off by 0.25 m"
+        in capsys.readouterr().err
+    )
 
 
 @pytest.mark.slow

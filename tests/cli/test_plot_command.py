@@ -46,7 +46,7 @@ def test_each_kind_of_figure_is_drawn_and_its_file_named(plot, kind):
 def test_without_a_kind_the_paths_are_drawn_and_no_file_is_overwritten(plot, tmp_path):
     assert plot() == (0, "figure: duel_paths.png")
     first = (tmp_path / "duel_paths.png").read_bytes()
-    assert plot("--style", "projector") == (0, "figure: duel_paths_2.png")
+    assert plot("--layers", "names") == (0, "figure: duel_paths_2.png")
     assert (tmp_path / "duel_paths.png").read_bytes() == first
     assert (tmp_path / "duel_paths_2.png").read_bytes() != first
 
@@ -77,7 +77,6 @@ def test_columns_and_robots_are_chosen_by_name_before_index(plot, tmp_path):
             ["signals", "--robots", "an"],
             "mars2d: robots: there is no robot 'an'; did you mean 'ann'",
         ),
-        (["--style", "prnt"], "mars2d: style = 'prnt': expected one of 'screen', 'print'"),
         (["--figure", "a.gif"], "mars2d: --figure a.gif: expected a name that ends in .png"),
         (["--figure", "no/a.png"], "mars2d: --figure no/a.png: there is no folder no"),
     ],

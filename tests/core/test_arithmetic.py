@@ -18,7 +18,7 @@ from mars2d.core.arithmetic import (
     norm,
     norms,
 )
-from mars2d.geometry.logarithm import arsinh, logarithm
+from mars2d.geometry.shapes import arsinh, logarithm
 from mars2d.physics.islands import arithmetic as engine
 from tests.cases import each_case
 

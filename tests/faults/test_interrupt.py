@@ -91,7 +91,7 @@ def slowly(self, *args):
 Tape.begin = slowly
 try:
     with Log({path!r}) as log:
-        world = World(Scenario(), storage=log.storage)
+        world = World(Scenario())
         while True:
             world.step([[0.1], [0.2]])
             log.follow(world)

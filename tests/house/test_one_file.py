@@ -113,7 +113,7 @@ assert (loaded.digest, loaded.missing, loaded.scenario) == (record.digest, (), s
 record.save_html("run.html")
 assert "#d55e00" in scenario._repr_svg_(), "the layer is not drawn"
 print(json.dumps([record.digest, record.sensors["compass"][-1].tolist()]))
-command_line.main(["digest", "run.npz"])
+assert command_line.main(["digest", "run.npz"]) == 0
 """
 
 

@@ -7,6 +7,7 @@ import pickle
 import subprocess
 import sys
 
+import matplotlib as mpl
 import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -25,14 +26,12 @@ from mars2d.core.plane import rectangle
 from mars2d.core.scene import Scene
 from mars2d.output.figures.artists import paint
 from mars2d.output.figures.figure import plot_paths, plot_snapshots, save_figure
-from mars2d.output.figures.handler import ToScale
-from mars2d.output.layers.forces import FORCE, force_scale
+from mars2d.output.layers.forces import FORCE
 from mars2d.output.layers.table import Layers
 from mars2d.sensors import Proximity
 from tests.cases import each_case
 from tests.processes import PATIENCE
 
-BLUE, RED = "#0072b2", "#d55e00"
 CHEVRON = [(2.0, 2.0), (4.0, 4.0), (2.0, 3.0), (0.0, 4.0)]
 
 
@@ -100,28 +99,6 @@ def test_initial_poses_are_hollow_and_final_poses_filled_and_to_scale(record):
         assert initial[i].get_radius() == final[i].get_radius() == robot.diameter / 2
         np.testing.assert_allclose(initial[i].center, record.pose[0, :2, i])
         np.testing.assert_allclose(final[i].center, record.pose[-1, :2, i])
-
-
-def test_the_page_shows_white_in_a_start_and_colour_in_an_end(record):
-    ax = record.plot()
-    ax.figure.set_dpi(300)
-    x, y, theta = record.pose[0, :, 1]
-    behind = (x - 0.15 * np.cos(theta + 0.5), y - 0.15 * np.sin(theta + 0.5))
-    assert pixel(ax, behind) == "#ffffff"
-    x, y, theta = record.pose[-1, :, 1]
-    assert pixel(ax, (x - 0.15 * np.cos(theta), y - 0.15 * np.sin(theta))) == RED
-    assert pixel(ax, (2.0, 2.5)) == "#b8c0c8"
-    assert pixel(ax, (2.02, 3.5)) != "#b8c0c8", "a concave obstacle stays concave"
-
-
-def test_a_heading_points_to_the_front_and_the_centre_of_rotation_is_marked():
-    robot = Robot(pose=(1, 1, np.pi / 2), diameter=1.0, center_offset=0.2)
-    scenario = Scenario(robots=[robot], stop_time=1)
-    ax = mars2d.run(scenario, control=lambda world: [[0.0], [0.0]]).plot()
-    heading = ax.lines[-1].get_xydata()
-    np.testing.assert_allclose(heading, [(1, 0.8), (1, 1.3)], atol=1e-12)
-    np.testing.assert_allclose(discs(ax)[-2].center, (1, 0.8))
-    np.testing.assert_allclose(discs(ax)[-1].center, (1, 1))
 
 
 def test_axes_are_equal_labelled_and_titled(record):
@@ -206,14 +183,6 @@ def test_wake_styles_are_matlabs(record, style, marker, line):
     assert str(trail.get_marker()) == marker
     assert trail.get_linestyle() == line
     np.testing.assert_array_equal(trail.get_xydata(), record.pose[:, :2, 0])
-
-
-def test_robots_as_points_have_the_same_size_at_any_diameter(record):
-    ax = styled(record, show_real_shape=False)
-    assert discs(ax) == []
-    marks = [line for line in ax.lines if len(line.get_xdata()) == 1]
-    assert [mark.get_markerfacecolor() for mark in marks] == ["none", "none", BLUE, RED]
-    assert len({mark.get_markersize() for mark in marks}) == 1
 
 
 # -- what is in view --------------------------------------------------------------------------
@@ -352,12 +321,6 @@ def test_every_kind_of_shape_is_painted_with_its_opacity_and_anchor():
     assert high >= 4
 
 
-def test_what_an_addon_draws_is_in_the_figure():
-    ax = mars2d.run("own_sensor_and_addon").plot()
-    lamps = [disc for disc in discs(ax) if disc.radius == 0.3]
-    assert len(lamps) == 3
-
-
 # -- props, joints, forces ------------------------------------------------------------------------
 
 
@@ -395,44 +358,31 @@ def test_props_are_drawn_hollow_at_the_start_and_filled_at_the_end():
     assert len(filled(ax, Circle, NEUTRAL)) == 1
 
 
-def test_a_rope_is_drawn_from_end_to_end():
-    record = pushed()
-    ropes = [line.get_xydata() for line in record.plot().lines if len(line.get_xdata()) == 49]
-    assert len(ropes) == 1
-    ends = [record.pose[-1, :2, 0], record.prop_pose[-1, :2, 1]]
-    np.testing.assert_allclose(ropes[0][[0, -1]], ends, atol=1e-9)
-
-
 def test_forces_are_drawn_when_the_animation_says_so():
     assert not filled(pushed().plot(), Polygon, FORCE)
     ax = pushed(forces=True).plot()
     arrows = {tuple(np.round(p.get_xy()[:7].ravel(), 6)) for p in filled(ax, Polygon, FORCE)}
     assert len(arrows) == 2, "of the pair"
     assert ax.texts[0].get_text() == "5.0 N"
-    assert ax.get_legend().get_texts()[-1].get_text().endswith(" N")
 
 
 @each_case("size", [(16, 2), (2, 16), (4, 4)])
-@each_case("style", ["screen", "print", "projector"])
-def test_the_legend_lies_beside_the_drawing_and_its_arrow_is_to_scale(size, style):
+def test_the_legend_lies_beside_the_drawing(size):
     wide, tall = size
-    robots = [Robot(pose=(x, 0, theta)) for x, theta in ((-0.2, 0), (0.2, np.pi))]
     workspace = rectangle(-wide / 2, wide / 2, -tall / 2, tall / 2)
-    scenario = Scenario(
-        robots=robots, workspace=workspace, stop_time=1, animation=Animation(forces=True)
-    )
-    record = mars2d.run(scenario, control=lambda world: [[0.2, 0.2], [0.0, 0.0]])
-    ax = record.plot(style=style)
-    ax.figure.set_size_inches(9, 5)  # by the user, later
+    record = mars2d.run(Scenario(robots=2, workspace=workspace, stop_time=0.1))
+    ax = record.plot()
     ax.figure.canvas.draw()
-    legend = ax.get_legend()
-    said = [text.get_text() for text in legend.get_texts()]
-    (newtons,) = [float(text.removesuffix(" N")) for text in said if text.endswith(" N")]
-    arrow = next(each for each in legend.get_patches() if isinstance(each, ToScale))
-    ends = arrow.get_transform().transform(arrow.get_xy())[:, 0]
-    metres = newtons * force_scale(scenario).unit
-    pixels = np.ptp(ax.transData.transform([(0, 0), (metres, 0)])[:, 0])
-    assert np.ptp(ends) == pytest.approx(pixels, rel=0.02)
-    frame, words = ax.get_window_extent(), legend.get_window_extent()
+    frame, words = ax.get_window_extent(), ax.get_legend().get_window_extent()
     assert words.x0 >= frame.x1
+    assert words.x1 <= ax.figure.bbox.x1
     assert words.y0 >= 0
+
+
+def test_heights_of_text_follow_the_settings_of_matplotlib(record):
+    with mpl.rc_context({"font.size": 8, "font.family": "STIXGeneral"}):
+        figures = [record.plot().figure, record.plot_signals("x")[0].figure]
+    for figure in figures:
+        figure.canvas.draw()
+        texts = [t for t in figure.findobj(mpl.text.Text) if t.get_text()]
+        assert {round(t.get_fontsize(), 1) for t in texts} <= {9.6, 8.0, 7.2}

@@ -1,6 +1,4 @@
-"""Names, links and ranges in figures: none over another, and each only where it is asked for."""
-
-from itertools import combinations
+"""Names, links and ranges in figures, each only where it is asked for."""
 
 import numpy as np
 import pytest
@@ -11,7 +9,7 @@ from mars2d.addons import Communication
 from mars2d.cli.command_line import main
 from mars2d.core.scene import Circle
 from mars2d.output.figures.figure import plot_paths, plot_snapshots
-from mars2d.output.layers.ranges import place_range, range_of
+from mars2d.output.layers.neighbours import place_range, range_of
 from mars2d.output.layers.table import Layers, of_bodies
 from tests.cases import each_case
 
@@ -35,29 +33,6 @@ def labels(figure):
         for text in ax.texts
         if text.get_text() and not text.get_text().startswith("t =")
     }
-
-
-@each_case("n", [1, 21])
-def test_no_name_lies_over_another(n):
-    found = labels(plot_paths(crowd(n), layers=Layers(names=True)).figure)
-    assert len(found) == n
-    for (one, box), (other, its) in combinations(found.items(), 2):
-        wide = min(box.x1, its.x1) - max(box.x0, its.x0)
-        high = min(box.y1, its.y1) - max(box.y0, its.y0)
-        assert min(wide, high) <= 1, f"{one} lies over {other} by {wide:.0f} x {high:.0f} pixels"
-
-
-def test_names_keep_off_the_forces():
-    record = mars2d.run("push_box", stop_time=2)
-    ax = plot_paths(record)
-    ax.figure.canvas.draw()
-    forces = [t for t in ax.texts if t.get_text().endswith(" N")]
-    boxes = [t for t in ax.texts if t.get_text().startswith("box of")]
-    assert [t.get_text() for t in boxes] == [f"box of {m} kg" for m in ("0.5", "1", "1.04", "2")]
-    assert len(forces) == 4
-    for one in forces:
-        for other in boxes:
-            assert not one.get_window_extent().overlaps(other.get_window_extent())
 
 
 @each_case(

@@ -8,7 +8,6 @@ from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.core.scene import Circle, Line, Polygon
 from mars2d.output.layers.addons import sensors
-from mars2d.output.pages.replay.sensors import carried, drawings
 from mars2d.record.frame import between
 from mars2d.sensors import Proximity, RangeFinder
 from tests.cases import each_case
@@ -54,24 +53,6 @@ def test_hits_lie_on_the_wall_in_records_live_and_between_control_steps(rate, la
         drawn += len(found)
         np.testing.assert_allclose(found[:, 0], WALL, atol=1e-9)
     assert drawn > 100
-
-
-@each_case("rate, latency", [(None, 0.55), (2.0, 0.0), (5.0, 0.3)])
-def test_a_replays_page_holds_the_hits_on_the_wall(rate, latency):
-    world = world_of(RangeFinder(beams=5, field_of_view=1.2, range=9, rate=rate, latency=latency))
-    while not world.over:
-        world.step()
-    kept = np.arange(len(world.record))
-    ((drawing,), _) = drawings(list(carried(world.record, kept)), world.scenario.colors)
-    assert drawing.body is None, "in the world"
-    drawn = 0
-    for scene in drawing.scenes:
-        parts = np.split(scene.numbers, np.cumsum(scene.counts)[:-1])
-        for (kind, *_), numbers in zip(scene.styles, parts, strict=True):
-            if kind == "line":
-                drawn += len(numbers)
-                np.testing.assert_allclose(numbers[::2], WALL, atol=1e-9)
-    assert drawn >= 30
 
 
 def centre(frame):

@@ -17,7 +17,7 @@ from mars2d.bodies.joints import Rope, Spring
 from mars2d.bodies.props import Ball, Box, Puck
 from mars2d.core.scene import Circle, Scene
 from mars2d.output.figures.figure import plot_paths
-from mars2d.output.layers import rings
+from mars2d.output.layers import bodies
 from mars2d.output.layers.table import LAYERS, Layer, Layers
 from mars2d.output.pages.notebook import drawn, svg_of
 from mars2d.output.raster.camera import Camera
@@ -213,6 +213,7 @@ def test_a_replay_has_all_layers_in_the_order_of_the_table(browser, record, tabl
     tab = Tab(browser, (1700, 1000))
     tab.open(record.save_html(tmp_path / "layers.html"))
     tab.press("End", "u", "i")
+    tab.click("Show")
     tab.click("Neighbours")
     tab.click("Ranges")
     check_order(tab.picture().astype(int))
@@ -229,7 +230,7 @@ def test_a_replay_has_all_layers_in_the_order_of_the_table(browser, record, tabl
 @pytest.mark.slow
 def test_each_layer_of_the_scene_is_seen_in_window_notebook_and_replay(record, monkeypatch):
     """Each layer that is switched off is missed, and a page holds shapes of each."""
-    monkeypatch.setattr(rings, "SMALL", 0.1)  # all robots have one
+    monkeypatch.setattr(bodies, "SMALL", 0.1)  # all robots have one
     from tests.output.test_html import held
 
     row = drawn_at_the_end(record)

@@ -41,7 +41,7 @@ def glide(prop: Prop, velocity, h: float) -> tuple[np.ndarray, np.ndarray]:
 def integrated(prop: Prop, velocity, h: float) -> np.ndarray:
     """The same by small steps: way, turned angle, then speed and spin; both fall together."""
     mass, moment = prop.inertia
-    force, lever = prop.ground_friction * mass * GRAVITY, prop.shape.lever
+    force, lever = prop.ground_friction * mass * GRAVITY, prop.shape.plate.lever
     speed, spin = float(np.hypot(*velocity[:2])), abs(velocity[2])
 
     def rates(t, y):

@@ -22,6 +22,17 @@ EXACT = 1e-9  # m
 # -- an implementation of its own: the first point of a ray in the closed form ------------------
 
 
+def sight(world, start, angles, length, ignore):
+    """Return the lengths (k,) of rays from a point at angles (k,), and the bodies that they hit."""
+    pose = np.array([[start[0]], [start[1]], [0.0]])
+    found = world.surroundings.sights(pose, angles, length, [ignore])
+    return found[0][0], found[1][0]
+
+
+def rays(world, start, angles, length, ignore):
+    return sight(world, start, angles, length, ignore)[0]
+
+
 def disc(start, way, center, radius):
     """How far unit vectors `way` (k, 2) go from `start` to a disc; 0 from within."""
     to = np.subtract(center, start)
@@ -125,7 +136,7 @@ def doubtful(world, start, angles, reach):
 
 def assert_exact(world, start, angles, reach=6.0, ignore=0):
     """Rays are what the closed form says, but for those that rounding decides."""
-    found = world.surroundings.rays(tuple(start), angles, reach, ignore)
+    found = rays(world, tuple(start), angles, reach, ignore)
     wanted = expected(world, start, angles, reach, ignore)
     sure = ~doubtful(world, start, angles, reach)
     sure &= ~(np.abs(wanted - reach) < EXACT)
@@ -211,7 +222,7 @@ def test_rays_are_those_of_closed_form_geometry(kinds, seed):
 
 def test_a_ray_is_as_long_as_it_is_to_the_nearest_thing_in_its_way():
     world = world_of([[(3, -1), (3, 1)]], [Robot(pose=(2, 0, 0), diameter=0.5)])
-    found = world.surroundings.rays((0, 0), np.array([0.0, pi, 0.3]), 5.0, 0)
+    found = rays(world, (0, 0), np.array([0.0, pi, 0.3]), 5.0, 0)
     assert found.tolist() == [1.75, inf, pytest.approx(3 / cos(0.3), abs=EXACT)]
 
 
@@ -225,7 +236,7 @@ def test_a_ray_exactly_along_a_wall_meets_its_end(angle, far):
     world = world_of([[tuple(near), tuple(end)]])
 
     def seen(point, heading):
-        return world.surroundings.rays(tuple(point), np.array([heading]), 100.0, 0)[0]
+        return rays(world, tuple(point), np.array([heading]), 100.0, 0)[0]
 
     assert seen(start, angle) == pytest.approx(far, abs=EXACT)
     assert seen(end + 3 * ahead, angle + pi) == pytest.approx(3, abs=EXACT)
@@ -241,7 +252,7 @@ def test_a_thick_walls_end_is_met_by_rays_from_within_its_thickness(thickness):
     world = world_of([wall])
     for y in np.linspace(-0.999, 0.999, 7) * r:
         for gap in (1e-6, 1e-3, r / 2, 3.0):
-            found = world.surroundings.rays((-gap, y), np.array([0.0, pi]), 6.0, 0)
+            found = rays(world, (-gap, y), np.array([0.0, pi]), 6.0, 0)
             assert found[0] == pytest.approx(gap, abs=EXACT)
             assert found[1] == inf
             assert_exact(world, (-gap, y), np.linspace(-1.5, 1.5, 40))
@@ -259,7 +270,7 @@ def test_a_ray_that_grazes_a_disc_meets_it_and_one_beside_it_does_not(radius, fa
         for side in (-1, 1):
             edge = side * atan2(radius, tangent)
             angles = bearing + edge + np.array([-1e-6, 1e-6]) * side
-            inner, outer = world.surroundings.rays(start, angles, 100.0, 0)
+            inner, outer = rays(world, start, angles, 100.0, 0)
             assert outer == inf
             across = distance * sin(abs(edge) - 1e-6)
             wanted = distance * cos(abs(edge) - 1e-6) - sqrt(radius**2 - across**2)
@@ -272,8 +283,8 @@ def test_a_ray_that_starts_inside_another_robot_goes_no_way_at_all(kind):
     world = world_of(robots=[Robot(pose=(1, 2, 0.5), shape=some_shape(rng, kind))])
     x, y = placed([(0.01, 0.02)], (1, 2, 0.5))[0]
     angles = np.linspace(-pi, pi, 30)
-    assert world.surroundings.rays((x, y), angles, 5.0, 0).tolist() == [0.0] * 30
-    distances, bodies = world.surroundings.sight((x, y), angles, 5.0, 0)
+    assert rays(world, (x, y), angles, 5.0, 0).tolist() == [0.0] * 30
+    distances, bodies = sight(world, (x, y), angles, 5.0, 0)
     assert distances.tolist() == [0.0] * 30
     assert bodies.tolist() == [1] * 30
 
@@ -285,7 +296,7 @@ def test_what_a_ray_hits_is_named():
         [Box(pose=(0, -2, 0), length=0.5, width=0.5)],
     )
     angles = np.array([0.0, 1.5, pi, -pi / 2, 0.7])
-    _, bodies = world.surroundings.sight((0, 0), angles, 5.0, 0)
+    _, bodies = sight(world, (0, 0), angles, 5.0, 0)
     assert bodies.tolist() == [1, -1, -2, 2, NOTHING]
 
 
@@ -316,7 +327,7 @@ def test_no_ray_leaves_a_closed_room(name, built):
         start = np.add(middle, rng.uniform(-0.5, 0.5, 2))
         aimed = np.array([atan2(y - start[1], x - start[0]) for x, y in corners])
         angles = [aimed, np.nextafter(aimed, 9), np.nextafter(aimed, -9), rng.uniform(-4, 4, 100)]
-        found = world.surroundings.rays(tuple(start), np.concatenate(angles), 40.0, 0)
+        found = rays(world, tuple(start), np.concatenate(angles), 40.0, 0)
         count += len(found)
         escaped += np.isinf(found).sum()
     assert escaped == 0
@@ -335,7 +346,7 @@ def test_a_ray_aimed_exactly_at_a_bodys_corner_meets_it():
             start = corner + rng.uniform(0.5, 3) * out + rng.uniform(-0.1, 0.1, 2)
             aimed = atan2(corner[1] - start[1], corner[0] - start[0])
             angles = np.array([aimed, np.nextafter(aimed, 9), np.nextafter(aimed, -9)])
-            found, bodies = world.surroundings.sight(tuple(start), angles, 9.0, 0)
+            found, bodies = sight(world, tuple(start), angles, 9.0, 0)
             assert found == pytest.approx(np.hypot(*(corner - start)), abs=EXACT)
             assert bodies.tolist() == [1, 1, 1]
 
@@ -348,7 +359,7 @@ def test_a_ray_straight_at_the_corner_of_a_box_meets_it(eighth):
             turned = 0.0 if eighth % 2 else pi / 4
             box = Box(pose=(far * cos(angle), far * sin(angle), turned), length=size, width=size)
             world = world_of(props=[box])
-            found = world.surroundings.rays((0.0, 0.0), np.array([angle]), 9.0, 0)
+            found = rays(world, (0.0, 0.0), np.array([angle]), 9.0, 0)
             assert found.tolist() == [pytest.approx(far - size / sqrt(2), abs=EXACT)]
             behind = np.array([[8 * cos(angle), 8 * sin(angle)]])
             assert world.surroundings.hidden((0.0, 0.0), behind, NOTHING, 0).all()

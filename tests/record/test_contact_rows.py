@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from mars2d.record.contact import CONTACT, count_meetings, episodes, met
+from mars2d.record.contact import CONTACT, episodes, met
 
 
 def rows_of(*given: tuple) -> np.ndarray:
@@ -38,13 +38,6 @@ def test_a_single_control_step_tells_as_much_as_the_whole():
     steps = [0, 1, 1, 1, 1, 2, 2, 2]
     alone = [met(WALK[np.equal(steps, k)]) for k in range(3)]
     assert np.concatenate(alone).tolist() == met(WALK).tolist()
-
-
-def test_meetings_are_counted_piece_by_piece():
-    for size in range(1, len(WALK) + 1):
-        pieces = (WALK[k : k + size] for k in range(0, len(WALK), size))
-        assert count_meetings(pieces) == 3
-    assert count_meetings([]) == 0
 
 
 def test_an_episode_is_of_a_pair_from_its_first_touch_until_no_normal_touches():

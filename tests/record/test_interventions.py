@@ -33,11 +33,6 @@ def test_each_is_the_same_after_a_way_through_json(intervention):
     assert interventions.of_plain(json.loads(text)) == intervention
 
 
-def test_a_law_is_not_kept_in_a_file():
-    change = Change(1, SCENARIO, control=lambda world: np.zeros((2, 2)))
-    assert interventions.of_plain(interventions.to_plain(change)).control is None
-
-
 def test_what_is_none_is_refused():
     with pytest.raises((KeyError, TypeError)):
         interventions.of_plain({"type": "Shove", "row": 1})
@@ -83,18 +78,6 @@ def test_so_it_is_from_a_file(tmp_path):
 def test_the_record_tells_what_was_simulated_at_each_row():
     record = changed().record
     assert [len(record.scenario_at(row).obstacles) for row in (9, 10, 20, 59)] == [0, 1, 2, 2]
-
-
-def test_done_again_on_another_world_they_give_the_same():
-    first = changed()
-    second = World(SCENARIO, ahead)
-    log = list(first.operator.log)
-    for command in first.history.command:
-        while log and log[0].row == second.iteration:
-            second.operator.redo(log.pop(0))
-        second.simulation.follow(command)
-    assert np.array_equal(first.history.pose, second.history.pose)
-    assert second.operator.log == first.operator.log
 
 
 def test_driving_by_hand_is_told_of_by_the_record_and_its_checks_are_not_made(tmp_path):

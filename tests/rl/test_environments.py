@@ -1,8 +1,5 @@
 """Environments of gymnasium and PettingZoo: spaces, rewards, ends, seeds, records, errors."""
 
-import os
-import subprocess
-import sys
 import warnings
 from pathlib import Path
 
@@ -88,14 +85,6 @@ if __name__ == "__main__":
     assert vector.step(vector.action_space.sample())[1].shape == (2,)
     vector.close()
 """
-
-
-@pytest.mark.slow
-def test_one_line_makes_an_environment_also_in_processes_without_another_import(tmp_path):
-    (tmp_path / "vector.py").write_text(IN_PROCESSES)
-    command = [sys.executable, "-W", "error", "-P", str(tmp_path / "vector.py")]
-    environment = os.environ | {"PYTHONPATH": str(ROOT)}
-    subprocess.run(command, check=True, timeout=100, env=environment)
 
 
 def test_who_is_out_of_a_game_ends_alone_while_the_others_go_on():
@@ -221,15 +210,6 @@ def test_an_observation_has_what_its_law_may_see_within_bounds():
     assert ahead == pytest.approx([1, 0, 0, 1], abs=1e-6)
     assert row[8:12] == pytest.approx([5, 5, row[10], 5])  # nothing within the range: its end
     assert np.isinf(seen.high[-3:]).all()
-
-
-def test_who_is_no_neighbour_now_is_zeros():
-    from mars2d import Within
-
-    world = World(chase(neighbours=Within(1.0)))
-    world.observe()
-    row = Observation.of(world.scenario, 0, world.robots[0])(world.robots[0])
-    assert row[4:].tolist() == [0, 0]
 
 
 def test_laws_of_others_are_given_by_role():

@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 
 from mars2d import InputError, Robot, Scenario, load, run
-from mars2d.addons import Map
 from mars2d.bodies import Box
 from mars2d.scenario.changes import alike
 from mars2d.scenario.examples import examples
@@ -192,11 +191,6 @@ def test_a_record_keeps_the_options_that_its_experiment_was_opened_with(file, tm
         assert load(tmp_path / f"run{suffix}").options == options
     words = "mu = 1.2, laws.go.speed = 0.4, stop_time = 1.0, robots.1.pose = (1, 2, 0)"
     assert options_in_words(options) == words
-    mapped = run(
-        file, options={"map": Map([[(-4, -4), (4, -4)], [(-4, 4), (4, 4)]]), "stop_time": 1.0}
-    )
-    mapped.save(tmp_path / "mapped.npz")
-    assert load(tmp_path / "mapped.npz").options == {"stop_time": 1.0}, "a Map is no setting"
 
 
 def test_annotations_may_be_postponed(tmp_path):

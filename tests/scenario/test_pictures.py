@@ -11,7 +11,7 @@ from PIL import Image
 
 import mars2d
 from mars2d import Scenario
-from mars2d.addons import Density, Floor
+from mars2d.addons import Floor
 from mars2d.output.formats import SUFFIXES
 from mars2d.output.formats.header import as_text
 from mars2d.scenario import save_scenario
@@ -21,12 +21,12 @@ BOUNDS = (0, 3, 0, 2)
 
 @pytest.fixture
 def scenario(tmp_path, monkeypatch) -> Scenario:
-    """A floor and a density, each with a picture in the current folder."""
+    """A floor with a picture in the current folder."""
     monkeypatch.chdir(tmp_path)
     values = np.random.default_rng(0).integers(0, 256, (4, 6, 4), dtype=np.uint8)
     Image.fromarray(values).save("a b;c.png")
     floor = Floor(image="a b;c.png", bounds=BOUNDS, color="#0000ff")
-    return Scenario(addons=[floor, Density(image="a b;c.png", bounds=BOUNDS)], stop_time=0.2)
+    return Scenario(addons=[floor], stop_time=0.2)
 
 
 def test_a_record_holds_its_pictures(scenario) -> None:

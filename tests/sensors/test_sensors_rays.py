@@ -14,7 +14,7 @@ import mars2d
 from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.bodies.props import Box
-from mars2d.core.scene import Line, Polygon, Scene
+from mars2d.core.scene import Scene
 from mars2d.geometry.shapes import Polygon as PolygonShape
 from mars2d.sensors import Bumper, LineCamera, Proximity, RangeFinder, Sensor, SonarRing
 from tests.cases import each_case
@@ -68,27 +68,6 @@ def test_a_range_finder_measures_along_each_beam_from_right_to_left():
     assert found == pytest.approx([2, 1, 3, 4])  # behind, right, ahead, left
     turned = reading(RangeFinder(beams=4, range=10), outlines=room, pose=(0, 0, pi / 2))
     assert turned == pytest.approx([1, 3, 4, 2])
-
-
-def test_a_range_finder_reads_inf_beyond_its_range():
-    wall = [[(3, -9), (3, 9)]]
-    found = reading(RangeFinder(beams=3, range=3.1, field_of_view=1.0), outlines=wall)
-    assert found.tolist() == [inf, pytest.approx(3), inf]
-    assert found.shape == (3,)
-
-
-def test_a_scan_is_drawn_as_one_area_and_one_row_of_dots():
-    sensor = RangeFinder(beams=180, range=2.0)
-    value = np.where(np.arange(180) < 20, 1.5, inf)
-    area, dots = drawn(sensor, value, (1.0, 2.0, 0.5))
-    assert isinstance(area, Polygon)
-    far = np.hypot(*(area.points - (1, 2)).T)
-    assert far == pytest.approx(np.where(np.isfinite(value), 1.5, 2.0))
-    assert isinstance(dots, Line)
-    assert (len(dots.points), dots.style) == (20, ".")
-    assert len(drawn(sensor, np.full(180, inf))) == 1
-    partial = drawn(RangeFinder(beams=5, field_of_view=1.0), np.full(5, inf), (1.0, 2.0, 0.5))
-    assert partial[0].points[0].tolist() == [1.0, 2.0]
 
 
 # -- sonars ---------------------------------------------------------------------------------------
@@ -191,11 +170,6 @@ def test_a_bumper_over_the_front_does_not_feel_the_back():
     assert not bumps(pi, **front).record.sensors["bumper"].any()
 
 
-def test_the_sectors_of_a_bumper_share_its_field_of_view():
-    assert Bumper(sectors=2, field_of_view=3.0).angles.tolist() == [-0.75, 0.75]
-    assert Bumper(sectors=4).angles == pytest.approx(np.array([-pi, -pi / 2, 0, pi / 2]))
-
-
 class Touched:
     """A robot that turns by half a radian in a control step, and is touched within it."""
 
@@ -243,19 +217,6 @@ def test_a_slow_bumper_keeps_what_it_felt_until_it_is_read():
     assert felt[:10].any()
     assert not felt[10]
     assert slow.tolist() == [False] * 10 + [True] * 10 + [False] * 11
-
-
-def test_two_robots_that_meet_both_feel_it():
-    robots = [
-        Robot(pose=(-0.3, 0, 0), sensors=[Bumper()]),
-        Robot(pose=(0.3, 0, 2), sensors=[Bumper()]),
-    ]
-    world = World(Scenario(robots=robots))
-    for _ in range(12):
-        world.step([[0.3, 0.0], [0.0, 0.0]])
-    first, second = world.record.sensors["bumper"][-1]
-    assert first.any()
-    assert second.tolist() == [False, False, False, True]  # at a bearing of pi - 2
 
 
 # -- line camera ----------------------------------------------------------------------------------

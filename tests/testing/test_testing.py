@@ -7,7 +7,6 @@ from __future__ import annotations
 import random
 import textwrap
 import time
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -307,11 +306,9 @@ def test_the_line_that_does_not_end_is_named():
 
 
 SENSORS_NEED = {"Proximity": {"range": 1.0}}
-DARK = Path(__file__).parents[2] / "docs" / "pictures" / "random_walk.png"
 ADDONS_NEED = {
     "Beacon": {"at": (1.0, 1.0)},
-    "Density": {"image": str(DARK), "bounds": (-5, 5, -5, 5)},
-    "FieldOfView": {"sensors": ["proximity"]},
+    "Density": {"function": lambda x, y: 1 + x * x},
     "Game": {"roles": {"hunter": ["robot0"], "hunted": ["robot1"]}},
     "Map": {"outlines": [[(0, 1.6), (0.3, 1.6)]]},
     "Ring": {"roles": {"red": ["robot0"], "blue": ["robot1"]}},

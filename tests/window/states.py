@@ -17,9 +17,7 @@ from mars2d.window.editor_window import EditorWindow
 from mars2d.window.run.window import Window
 from mars2d.window.screen.display import Preferences
 from mars2d.window.screen.looks import Looks
-from mars2d.window.screen.memory import Memory
-from mars2d.window.screen.source import Playback
-from mars2d.window.trio import Trio
+from mars2d.window.screen.source import Playback, Trio
 from mars2d.world.record import load
 from mars2d.world.timeline import Timeline
 from tests.window.circling import Circling, circling_scenario
@@ -61,7 +59,7 @@ def made_window(
     made = Quiet(_source(options), speed, (800, 600), look)
     made.silent, made.asks = silent, asks
     if people is not None:
-        made.play(Memory(), "observed", people)
+        made.play(people)
     return made
 
 
@@ -179,9 +177,7 @@ def game_of(window):
         "counting": game.counting > 0,
         "seats": [seat.robot for seat in game.seats],
         "result": None if game.result is None else game.result.words,
-        "news": None if game.result is None else game.result.news,
         "choices": {title: at.center for title, at in window._before.menu.places.items()},
-        "tally": game.tally(game.seats[0].role).in_words if game.seats else "",
         "panel": [*window.dock.plates.get("score", ())],
     }
 

@@ -1,54 +1,13 @@
 """How many pixels a point has is found out, or said by a variable; a window fits on the screen."""
 
-import pytest
-
 from mars2d.window.screen import desktop
 from mars2d.window.screen.desktop import desktop_scale, opening_size
 from tests.cases import each_case
 
 
-@pytest.fixture
-def on(monkeypatch):
-    """Pretend that the display has a driver, and that the X server has resources."""
-
-    def pretend(driver, resources=""):
-        monkeypatch.delenv("MARS2D_SCALE", raising=False)
-        monkeypatch.delenv("GDK_SCALE", raising=False)
-        monkeypatch.setattr(desktop.pygame.display, "get_init", lambda: driver is not None)
-        monkeypatch.setattr(desktop.pygame.display, "get_driver", lambda: driver)
-        monkeypatch.setattr(desktop, "_resources", lambda: resources)
-
-    return pretend
-
-
 @each_case("chosen, scale", [("1.5", 1.5), ("2", 2.0), ("0.5", 0.5)])
-def test_the_variable_decides(on, monkeypatch, chosen, scale):
-    on("x11", "Xft.dpi:\t288\n")
+def test_the_variable_decides(monkeypatch, chosen, scale):
     monkeypatch.setenv("MARS2D_SCALE", chosen)
-    assert desktop_scale() == scale
-
-
-@each_case(
-    "resources, scale",
-    [
-        ("Xft.dpi:\t192\n", 2.0),
-        ("Xcursor.size:\t24\nXft.dpi:\t120\nXft.hinting:\t1\n", 1.25),
-        ("Xft.dpi: 96.0", 1.0),
-        ("Xft.dpi:\t72\n", 1.0),
-        ("Xft.dpi:\t99999\n", 8.0),
-        ("Xft.dpi:\tmany\n", 1.0),
-        ("", 1.0),
-    ],
-)
-def test_an_x_server_is_asked_for_its_resources(on, resources, scale):
-    on("x11", resources)
-    assert desktop_scale() == scale
-
-
-@each_case("chosen, scale", [("2", 2.0), ("much", 1.5)])
-def test_gdk_scale_goes_before_them(on, monkeypatch, chosen, scale):
-    on("x11", "Xft.dpi: 144")
-    monkeypatch.setenv("GDK_SCALE", chosen)
     assert desktop_scale() == scale
 
 

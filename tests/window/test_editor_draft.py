@@ -6,7 +6,7 @@ from pathlib import Path
 import pygame
 import pytest
 
-from mars2d.addons import Beacon, Estimate, Game, Map, Trails, Voronoi, Waypoints
+from mars2d.addons import Beacon, Estimate, Game, Map, Voronoi, Waypoints
 from mars2d.bodies.joints import Hinge, Rope
 from mars2d.bodies.props import Ball, Box
 from mars2d.core.errors import InputError
@@ -130,7 +130,6 @@ def test_a_new_name_holds_wherever_the_body_is_mentioned():
     follow = Robot(pose=(-3, -4, 0), controller=FollowRobot(leader="robot0"))
     mentions = [
         Game({"robot0": ["robot0"], "hunted": ["second", 2]}, hunted=["second"]),
-        Trails(robots=["second", "robot0"]),
         Estimate(robot="robot0"),
     ]
     scenario = furnished()
@@ -146,9 +145,9 @@ def test_a_new_name_holds_wherever_the_body_is_mentioned():
     assert draft.robots[2].controller.leader == "Ada"
     assert draft.base.joints[0].a == "Bo"
     found = draft.scenario()
-    game, trails, estimate = found.addons[-3:]
+    game, estimate = found.addons[-2:]
     assert game.roles == (("robot0", ("Ada",)), ("hunted", ("Bo", 2)))
-    assert (game.hunted, trails.robots, estimate.robot) == (("Bo",), ("Bo", "Ada"), "Ada")
+    assert (game.hunted, estimate.robot) == (("Bo",), "Ada")
     assert (found.random_starts[0].bodies, found.stop_on) == (("Ada",), (("Ada", "box0"),))
     with pytest.raises(InputError, match="'Bo' is the name of another body"):
         draft.renamed(Item("robot", 0), "Bo")
@@ -286,18 +285,6 @@ def test_a_draft_of_an_example_is_that_scenario_again_and_can_be_emptied(name):
     editor.desk.put(editor.desk.draft.without(editor.desk.draft.items()))
     editor.draw(surface)
     assert "no robot" in editor.judge.verdict.text
-
-
-def test_the_ground_is_drawn_once_while_a_robot_is_moved_over_it():
-    editor, surface = Editor(furnished(), Looks()), pygame.Surface((640, 400), 0, 32)
-    editor.draw(surface)
-    desk, canvas = editor.desk, editor._stage._canvas
-    desk.put(desk.draft.moved([Item("robot", 0)], Motion(by=(1.0, 0.0))))
-    editor.draw(surface)
-    assert editor._stage._canvas is canvas
-    desk.put(desk.draft.moved([Item("outline", 0)], Motion(by=(1.0, 0.0))))
-    editor.draw(surface)
-    assert editor._stage._canvas is not canvas
 
 
 def test_the_keys_in_the_document_and_the_help_are_those_that_work():

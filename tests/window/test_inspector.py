@@ -43,8 +43,7 @@ from mars2d.window.panels.readout import (
     rounded,
     state_of,
 )
-from mars2d.window.panels.sensorplot import history
-from mars2d.window.screen.selection import Selection
+from mars2d.window.screen.picking import Selection
 from tests.cases import each_case
 from tests.window.written import Written, painter
 
@@ -168,17 +167,6 @@ def test_the_inbox_has_the_last_messages_that_have_arrived(world):
     assert [text for _, _, text in inbox(early, 0)] == ['{"step":1}', '{"step":0}']
     assert inbox(world.record.frame(1), 0) == []
     assert dt == 0.1
-
-
-def test_a_sensors_history_is_what_the_record_has(world):
-    frame = world.frame
-    sensor = world.scenario.robots[0].sensors[0]
-    now = np.asarray(dict(frame.readings["pose"])[0])
-    past = history(frame, 0, sensor, now)
-    np.testing.assert_array_equal(past.values[:-1], world.record.sensors["pose"][:, 0])
-    np.testing.assert_array_equal(past.values[-1], now)
-    assert past.first == 0.0
-    assert past.last == pytest.approx(0.3), "30 of the 100 steps that are shown"
 
 
 def test_scrubbing_back_shows_what_was_seen_then(world):

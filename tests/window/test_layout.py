@@ -21,7 +21,7 @@ from mars2d.window.run.window import Window
 from mars2d.window.screen.display import Preferences
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.memory import Memory
-from mars2d.window.trio import Trio
+from mars2d.window.screen.source import Trio
 from mars2d.world.timeline import Timeline
 from tests.cases import each_case
 from tests.window.written import Pens, Written
@@ -100,7 +100,7 @@ def faults_of_home(size, text):
 def faults_of_run(timeline, size, text):
     """Yield what is wrong with a game's layout before it begins."""
     shown = Window(timeline, 1.0, size, Preferences(text=text))
-    shown.play(Memory(), "a game", ())
+    shown.play()
     surface = pygame.Surface(size, 0, 32)
     for _ in range(2):  # panels have their places from the second picture on
         shown.draw(surface)

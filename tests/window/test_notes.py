@@ -5,9 +5,9 @@ import pygame
 
 from mars2d.output.raster.layout import TEXT_SIZES, Layout
 from mars2d.output.raster.theme import LIGHT
-from mars2d.window.widgets.notes import STAYS, Notes, Progress, draw_progress
+from mars2d.window.widgets.notes import STAYS, Notes
 from tests.cases import each_case
-from tests.window.written import Written, painter, pixels
+from tests.window.written import painter, pixels
 
 SIZES = each_case("size", [(640, 480), (1280, 720), (2560, 1440)])
 LONG = (
@@ -90,15 +90,3 @@ def test_long_notes_are_wrapped_and_stay_within_the_picture(size, text):
 
 
 # -- progress -------------------------------------------------------------------------------------
-
-
-@SIZES
-@each_case("text", TEXT_SIZES)
-def test_progress_says_what_and_how_far(size, text):
-    layout = Layout.of(size, text=text, controls=True)
-    surface = Written(size)
-    draw_progress(surface, layout.plot, painter(layout, LIGHT), Progress("Going back to 12 s", 0.4))
-    assert surface.texts == ["Going back to 12 s", "40 %"]
-    assert not surface.crowded()
-    for _, place in surface.words:
-        assert layout.plot.contains(place)

@@ -1,16 +1,10 @@
-"""Games that people play: roles, the countdown, the end, the scores."""
+"""Games that people play: roles, the countdown, the end."""
 
-import json
-
-import numpy as np
 import pytest
 
 from mars2d.scenario.experiment import open_experiment
-from mars2d.window.run.play import COUNTDOWN, game_of
-from mars2d.window.run.scores import Scores, Tally
+from mars2d.window.run.play import COUNTDOWN
 from mars2d.window.run.window import Window
-from mars2d.window.screen.display import Preferences
-from mars2d.window.screen.memory import Memory
 from mars2d.world.timeline import Timeline
 from tests.cases import each_case
 
@@ -35,12 +29,6 @@ RESTS = "def control(robot):\n    return 0.0, 0.0\n"
 
 
 @pytest.fixture
-def memory(tmp_path, monkeypatch):
-    monkeypatch.setenv("MARS2D_MEMORY", str(tmp_path / "memory"))
-    return Memory()
-
-
-@pytest.fixture
 def catch(tmp_path):
     """Return a game's file: red catches blue after two seconds, where nobody drives."""
     (tmp_path / "hunts.py").write_text(HUNTS)
@@ -50,10 +38,9 @@ def catch(tmp_path):
     return path
 
 
-def opened(source, memory, people=(), size=(1280, 720), text=1.0, **options):
-    experiment = open_experiment(source, options)
-    window = Window(Timeline(experiment), 1.0, size, Preferences(text=text))
-    window.play(memory, game_of(experiment), people)
+def opened(source, people=(), **options):
+    window = Window(Timeline(open_experiment(source, options)), 1.0)
+    window.play(people)
     return window
 
 
@@ -70,137 +57,71 @@ def run_to_the_end(window):
     assert window.game.pass_time(0.1)
 
 
-# -- scores ---------------------------------------------------------------------------------------
-
-
-def test_a_tally_knows_the_quickest_win_and_the_longest_loss():
-    tally = Tally()
-    for won, time in [(False, 3.0), (True, 9.0), (False, 5.0), (True, 7.0), (None, 20.0)]:
-        tally = tally.after(won, time)
-    assert tally == Tally(played=5, won=2, drawn=1, quickest=7.0, longest=5.0)
-    assert tally.in_words == "won 2 of 5, 1 drawn, quickest in 7.0 s"
-    survived = Tally().after(True, None)  # until time was over
-    assert survived.in_words == "won 1 of 1"
-    assert survived.after(False, 4.0).in_words == "won 1 of 2, held out 4.0 s"
-    assert Tally().in_words == ""
-
-
-def test_scores_are_kept_by_game_and_role(memory):
-    Scores(memory, "corner_game").add("evader", won=False, time=12)
-    Scores(memory, "corner_game, mu = 0.8").add("evader", won=True, time=None)
-    again = Memory()
-    assert Scores(again, "corner_game").of("evader") == Tally(played=1, longest=12.0)
-    assert Scores(again, "corner_game").of("pursuer") == Tally()
-    assert Scores(again, "corner_game, mu = 0.8").of("evader").won == 1
-
-
-def test_a_file_of_ones_own_is_known_by_its_path_and_its_options(catch):
-    experiment = open_experiment(catch, {})
-    assert game_of(experiment) == str(catch)
-    again = experiment.with_options({"stop_time": 9, "sampling_time": 0.5})
-    assert game_of(again) == f"{catch}, sampling_time = 0.5, stop_time = 9"
-
-
 # -- the end of a game ----------------------------------------------------------------------------
 
 
-def test_who_is_caught_has_lost_and_a_rematch_begins_with_a_countdown(memory, catch):
-    window = opened(catch, memory, [1])
+def test_who_is_caught_has_lost_and_a_rematch_begins_with_a_countdown(catch):
+    window = opened(catch, [1])
     assert window.game.counting == COUNTDOWN
     assert not window.player.playing
     run_to_the_end(window)
     assert window.game.result.words == "You lose"
-    assert window.game.result.winners == (0,)
-    lasted = window.director.timeline.record.time[-1]
-    assert window.game.tally("evader") == Tally(played=1, longest=lasted)
     window._restart()
     assert window.game.result is None
     assert window.game.counting == COUNTDOWN
     assert window.player.frame.time == 0
-    run_to_the_end(window)
-    assert window.game.tally("evader").played == 2
 
 
-def test_a_replay_counts_once_and_the_next_start_is_drawn_from_the_next_seed(memory):
-    window = opened("round_a_pillar", memory, [1], mu=2.0)
+def test_after_a_replay_the_next_start_is_drawn_from_the_next_seed():
+    window = opened("round_a_pillar", [1], mu=2.0)
     run_to_the_end(window)
     window.player.pause_or_resume()  # watches it again
     while window.player.playing:
         window.game.pass_time(0.1)
         window.player.pass_time(0.1)
     window.game.pass_time(0.1)
-    assert window.game.tally("evader").played == 1
+    assert window.game.result is not None
     first = window.player.frame.scenario.initial_pose
     assert window.game.choose(0)
     assert window.director.timeline.experiment.seed == 1
     assert (window.player.frame.scenario.initial_pose != first).any()
     assert [seat.role for seat in window.game.seats] == ["evader"]
-    run_to_the_end(window)
-    assert window.game.tally("evader").played == 2
 
 
-def test_who_wins_plays_faster_and_who_loses_no_slower_than_at_first(memory, catch):
-    window = opened(catch, memory, [1], pursuer="rests.py", stop_time=3.0)
+def test_who_wins_plays_faster_and_who_loses_no_slower_than_at_first(catch):
+    window = opened(catch, [1], pursuer="rests.py", stop_time=3.0)
     for speed in (1.25, 1.5625):
         run_to_the_end(window)
         window._restart()
         assert window.player.speed == speed
-    window = opened(catch, memory, [1])
+    window = opened(catch, [1])
     run_to_the_end(window)
     window._restart()
     assert window.player.speed == 1.0
 
 
-@each_case(
-    ("game", "robot", "keys", "distance"),
-    [
-        ("escort", 1, "↑←↓→", (0, 2)),  # the guard sees how near the hunter is to the prey
-        ("selfish_herd", 3, "↑←↓→", (0, 3)),
-        ("two_cars", 1, "←→", (0, 1)),
-    ],
-)
-def test_a_person_sees_the_keys_that_work_and_the_distance_that_counts(
-    memory, game, robot, keys, distance
-):
-    play = opened(game, memory, [robot]).game
-    frame = play._player.frame
-    assert "".join(play.seats[0].keys) == keys
-    apart = np.hypot(*np.diff(frame.pose[:2, distance], axis=1)[:, 0])
-    assert play.distance(frame) == pytest.approx(apart)
+@each_case(("game", "robot", "keys"), [("escort", 1, "↑←↓→"), ("two_cars", 1, "←→")])
+def test_a_person_sees_the_keys_that_work(game, robot, keys):
+    assert "".join(opened(game, [robot]).game.seats[0].keys) == keys
 
 
-def test_who_stays_free_has_won_and_a_better_time_is_news(memory, catch):
-    window = opened(catch, memory, [1], pursuer="rests.py", stop_time=3.0)
+def test_who_stays_free_has_won(catch):
+    window = opened(catch, [1], pursuer="rests.py", stop_time=3.0)
     run_to_the_end(window)
     assert window.game.result.words == "You win"
-    assert window.game.tally("evader") == Tally(played=1, won=1)
-    window = opened(catch, memory, [1])
-    Scores(memory, game_of(open_experiment(catch))).add("evader", won=False, time=0.1)
-    run_to_the_end(window)
-    assert window.game.result.news.startswith("Your best: ")
 
 
-def test_a_game_that_hands_have_changed_does_not_count(memory, catch):
-    window = opened(catch, memory, [1])
-    window.director.change(lambda world: world.operator.place("red", (-2, 1, 0)))
-    run_to_the_end(window)
-    assert window.game.result.news.startswith("Not counted")
-    assert window.game.tally("evader") == Tally()
-
-
-def test_two_people_have_a_tally_of_their_own(memory, catch):
-    window = opened(catch, memory, [1, 0])  # the hunter's person does nothing
+def test_two_people_have_keys_of_their_own(catch):
+    window = opened(catch, [1, 0])  # the hunter's person does nothing
     assert [seat.role for seat in window.game.seats] == ["evader", "pursuer"]
     assert [seat.keys[0] for seat in window.game.seats] == ["↑", "W"]
     run_to_the_end(window)
     assert window.game.result.words == "Evader wins"
-    assert window.game.tally("pursuer") == Tally(played=1)
-    assert opened(catch, memory, [1]).game.tally("evader") == Tally()
 
 
-def test_a_law_that_fails_ends_no_game(memory, catch):
+def test_a_law_that_fails_ends_no_game(catch):
     (catch.parent / "hunts.py").write_text("def control(robot):\n    return 1 / robot.time, 0\n")
-    window = opened(catch, memory, [1])
+    window = opened(catch, [1])
     for _ in range(40):
         window.game.pass_time(0.1)
     window.player.pass_time(0.2)
@@ -209,21 +130,17 @@ def test_a_law_that_fails_ends_no_game(memory, catch):
     assert window.game.result is None
 
 
-def test_a_draw_is_said(memory):
-    window = opened("sumo", memory, [0, 1], stop_time=0.1)
+def test_a_draw_is_said():
+    window = opened("sumo", [0, 1], stop_time=0.1)
     run_to_the_end(window)
     assert window.game.result.words == "A draw"
-    assert window.game.tally("red").drawn == 1
 
 
 # -- what is seen ---------------------------------------------------------------------------------
 
 
-def test_the_panel_says_how_it_stands(memory):
-    game = opened("corner_game", memory, [1]).game
-    frame = game._player.frame
-    red, blue = frame.pose[:2].T
-    assert game.distance(frame) == pytest.approx(((red - blue) ** 2).sum() ** 0.5)
+def test_the_panel_says_how_it_stands():
+    game = opened("corner_game", [1]).game
     assert game.played_by("pursuer") == "ahead"
     assert game.played_by("evader") == "you"
     assert game.score() == {}  # with one robot each it says nothing
@@ -232,7 +149,7 @@ def test_the_panel_says_how_it_stands(memory):
     ]  # fmt: skip
 
 
-def test_teams_have_scores_and_those_who_are_out_are_not_near(memory, tmp_path):
+def test_teams_have_scores(tmp_path):
     file = tmp_path / "teams.py"
     file.write_text(
         "from mars2d import Robot, Scenario\n"
@@ -242,18 +159,16 @@ def test_teams_have_scores_and_those_who_are_out_are_not_near(memory, tmp_path):
         "game = Game({'wolf': ['a'], 'sheep': ['b', 'c']}, capture=1.0)\n"
         "scenario = Scenario(robots=robots, addons=[game])\n"
     )
-    window = opened(file, memory, [0])
+    window = opened(file, [0])
     assert window.game.score() == {"wolf": "1 caught", "sheep": "1 free"}
-    assert window.game.distance(window.player.frame) == pytest.approx(4.0)
 
 
 # -- in a window --------------------------------------------------------------------------------
 
 
 @pytest.fixture
-def play(open_window, tmp_path, monkeypatch):
-    """Return a function that opens a window with a game, whose scores are kept for this test."""
-    monkeypatch.setenv("MARS2D_MEMORY", str(tmp_path / "memory"))
+def play(open_window):
+    """Return a function that opens a window with a game."""
 
     def start(speed, source, people=(), **options):
         return open_window(speed, experiment=str(source), people=people, **options)
@@ -306,18 +221,15 @@ def test_two_people_drive_by_arrows_and_by_letters(play):
     person.do("keyup", "Down", "keyup", "s")
 
 
-def test_in_the_end_r_plays_again_and_the_score_is_kept(play, catch, tmp_path):
+def test_in_the_end_r_plays_again_and_a_number_another_role(play, catch):
     person = play(5.0, catch, [1])
     person.press("space")
     person.until(lambda s: s["game"]["result"] == "You lose")
     assert "R" in person.state["banner"] or "pursuer wins" in person.state["banner"]
-    assert person.state["game"]["tally"].startswith("won 0 of 1")
     person.press("r")
     person.until(lambda s: s["game"]["counting"] and s["time"] == 0)
     person.press("space")
     person.until(lambda s: s["game"]["result"] == "You lose")
-    kept = json.loads((tmp_path / "memory" / "scores.json").read_text())
-    assert kept["observed"]["evader"]["played"] == 2
     person.press("1")  # the other role
     person.until(lambda s: s["game"]["seats"] == [0] and s["time"] == 0)
 
@@ -331,4 +243,3 @@ def test_a_law_is_saved_while_somebody_plays(play, catch):
     start = person.state["robots"][0]
     person.until(lambda s: s["robots"][0][0] > start[0] + 0.2)
     person.until(lambda s: s["game"]["result"] == "You lose")
-    assert person.state["game"]["news"].startswith("Not counted")

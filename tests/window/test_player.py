@@ -64,16 +64,6 @@ def test_a_pause_shows_the_present_frame_and_lasts():
     assert p.frame.time == pytest.approx(2.5)
 
 
-def test_a_step_is_one_sampling_time_and_pauses():
-    p = player(1.0)
-    p.step()
-    p.step()
-    assert p.source.row == 2
-    assert p.status() == ("paused", "waiting")
-    play(p, 1.0)
-    assert p.source.row == 2
-
-
 def test_manual_mode_goes_by_steps_only():
     p = player(0)
     play(p, 1.0)
@@ -140,15 +130,6 @@ def test_over_is_told_once_the_last_frame_is_shown():
     assert p.status() == ("over", "waiting")
     p.step()
     assert p.source.row == 3
-
-
-def test_restart_goes_back_and_plays_on():
-    p = player(1.0, rows=3)
-    play(p, 1.0)
-    p.restart()
-    assert p.frame.time == 0
-    play(p, 0.2)
-    assert p.frame.time == pytest.approx(0.2)
 
 
 @each_case("speed", [0, 1.0, "max"])

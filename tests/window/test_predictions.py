@@ -103,7 +103,7 @@ def test_checks_that_never_return_are_broken_off_and_the_run_goes_on(tmp_path):
     assert desk.timeline.row == 10
 
 
-def test_checks_are_asked_seldom_and_dear_ones_when_time_stands_still(tmp_path):
+def test_checks_are_asked_seldom_while_time_passes(tmp_path):
     desk = Desk(tmp_path, WAY)
     desk.run(2)
     assert desk.look()
@@ -112,9 +112,8 @@ def test_checks_are_asked_seldom_and_dear_ones_when_time_stands_still(tmp_path):
     assert not desk.look(0.1)
     assert desk.look(0.2)
     desk.run(1)
-    desk.panel._cost = 0.5
-    assert not desk.look()
-    assert desk.look(playing=False)
+    assert not desk.look(0.1)
+    assert desk.look(0.0, playing=False)
 
 
 def test_a_run_changed_by_hand_has_no_predictions_and_a_new_start_has(tmp_path):

@@ -64,7 +64,7 @@ def test_the_readings_of_sensors_are_traced_if_they_are_few():
     reading = np.ravel(dict(timeline.frame.readings["imu"])[0])
     np.testing.assert_array_equal([each.values[-1, 0] for each in found], reading)
     assert scan.read(timeline.recorded, timeline.frame) == []
-    assert "40 numbers: too many for curves" in scan.error
+    assert "readings of shape (40,): choose a part" in scan.error
 
 
 def test_a_function_of_ones_own_is_traced_and_its_mistakes_are_told(timeline):

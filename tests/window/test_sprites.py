@@ -71,8 +71,6 @@ class Viewer:
     def draw(self):
         self.window.viewpoint._hurry = 0.0  # as after a rest: in motion pictures may be rough
         self.window._inspector._drawn_at = -1e9
-        if self.plain:
-            self.window._stage._sensed = None
         surface = pygame.Surface(self.size, 0, 32)
         self.window.draw(surface)
         return surface
@@ -147,6 +145,7 @@ def test_what_a_sensor_sees_moves_with_its_robot_between_two_readings():
 
 def test_what_stays_between_two_pictures_is_not_drawn_again(record, monkeypatch):
     viewer = Viewer(record)
+    viewer.window._toggle("sensors")
     viewer.play(10, draw=True)
     viewer.window.player.pause_or_resume()
     before = viewer.draw()

@@ -3,6 +3,7 @@
 from math import inf
 
 import numpy as np
+import pygame
 import pytest
 
 from mars2d import Robot, Scenario
@@ -119,7 +120,10 @@ def test_an_endless_experiment_shows_a_round_time_that_grows(rows, seconds):
     [(0.05, 1, "0.05 s"), (1.0, 7, "7 s"), (0.025, 3, "0.075 s"), (0.5, 3, "1.5 s")],
 )
 def test_times_have_the_decimals_that_tell_rows_apart(dt, row, text):
-    assert text in Drawn(state(row=row, dt=dt)).surface.texts
+    shown = state(row=400, last=400, dt=dt)
+    plain = Drawn(shown)
+    pointer = round(plain.bar.x_of(row)), plain.layout.timebar.centery
+    assert text in Drawn(shown, pointer=pointer).surface.texts
 
 
 # -- the slider -----------------------------------------------------------------------------------
@@ -141,9 +145,16 @@ class Slid:
 def test_each_speed_is_found_where_it_is_shown(size, text):
     slid = Slid(1.0, size=size, text=text)
     for speed in (*RUNGS, inf):
-        assert slid.slider.speed_at(slid.slider.x_of_speed(speed)) == speed
+        assert slid.slider.speed_at(slid.slider.x_of(slid.slider.value_of(speed))) == speed
     assert slid.slider.speed_at(0) == 0.1
     assert slid.slider.speed_at(size[0]) == inf
+
+
+def test_the_first_drawing_shows_the_speed_where_the_second_does():
+    slid = Slid(5.0)
+    first = pygame.image.tobytes(slid.surface, "RGB")
+    slid.slider.draw(slid.surface, slid.layout.slider, painter(slid.layout, LIGHT), 5.0)
+    assert pygame.image.tobytes(slid.surface, "RGB") == first
 
 
 @each_case(

@@ -100,16 +100,6 @@ def test_m_hides_messages_and_o_what_add_ons_draw(open_window):
     assert window.shows(lambda seen: differing(before, seen) == 0)
 
 
-def test_forces_are_shown_from_the_start_if_the_animation_says_so(open_window):
-    window = open_window(0, pressed=True, scenario={"animation": {"forces": True}})
-    assert window.state["layers"]["forces"]
-    window.press("Right")
-    assert window.shows(lambda seen: has(seen, FORCE))
-
-
-# -- light, text, help ----------------------------------------------------------------------------
-
-
 def test_d_and_z_change_the_light_and_the_size_of_text(open_window):
     window = open_window(0)
     before = window.still()
@@ -157,15 +147,6 @@ def test_the_mouse_does_nothing_to_what_the_help_lies_on(open_window):
     assert window.state["origin"] == start["origin"]
     window.press("Escape")
     window.until(lambda s: s["help"] is None)
-
-
-def test_a_window_opens_dark_and_large_if_one_likes_it_so(open_window):
-    window = open_window(0, dark=True, text=1.7)
-    assert (window.state["dark"], window.state["text"]) == (True, 1.7)
-    assert window.look()[60:500].mean() < 100
-
-
-# -- selecting, camera ----------------------------------------------------------------------------
 
 
 def test_a_click_selects_a_robot_and_shows_the_force_on_it(open_window):
@@ -329,7 +310,7 @@ def test_without_a_display_the_error_says_what_to_do_instead(no_display):
 
 # -- all of them ----------------------------------------------------------------------------------
 
-ON_A_KEYBOARD = {
+ON_A_KEYBOARD = {",": "comma", ".": "period",
     "PgDn": "Next", "PgUp": "Prior", "→": "Right", "←": "Left", "+": "plus",
     "\N{MINUS SIGN}": "minus", "Esc": "Escape", "Space": "space",
 }  # fmt: skip

@@ -109,8 +109,6 @@ def test_buttons_save(open_window, tmp_path):
     window = open_window(0, folder=tmp_path)
     push(window, "picture")
     window.until(lambda _: list(tmp_path.glob("*.png")))
-    push(window, "scenario")
-    window.until(lambda _: list(tmp_path.glob("*.toml")))
     push(window, "film")
     window.until(lambda s: s["filming"])
     push(window, "film")

@@ -16,8 +16,7 @@ from mars2d.record.contact import met
 from mars2d.scenario.experiment import open_experiment
 from mars2d.window.compare_window import CompareWindow
 from mars2d.window.screen.display import Preferences
-from mars2d.window.screen.source import Playback
-from mars2d.window.trio import Trio
+from mars2d.window.screen.source import Playback, Trio
 from mars2d.world.timeline import Timeline
 from tests.cases import each_case
 from tests.window.person import differing

@@ -5,7 +5,7 @@ import sys
 import pytest
 
 from mars2d.core.scene import Scene, Text
-from mars2d.window.run.text_editor import command_for
+from mars2d.window.run.ending import command_for
 from tests.cases import each_case
 from tests.processes import wait_until
 from tests.window.test_window_buttons import choose

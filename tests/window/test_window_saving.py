@@ -1,4 +1,4 @@
-"""What is kept of the window: pictures, films, Python."""
+"""What is kept of the window: pictures and films."""
 
 import signal
 import sys
@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from mars2d.scenario.experiment import open_experiment
 from tests.window.person import differing
 
 
@@ -70,21 +69,6 @@ def test_v_films_until_it_is_pressed_again(open_window, folder):
         assert sum(1 for _ in film.decode(video=0)) > 0
 
 
-def test_c_keeps_the_scenario_as_it_is_seen(open_window, room, folder):
-    window = open_window(0, folder=folder, experiment=str(room))
-    window.steps(20)
-    poses = window.until(lambda s: s["row"] == 20)["robots"]
-    window.press("c")
-    window.says(f"scenario: {folder / 'room_1.toml'}")
-    kept = open_experiment(folder / "room_1.toml").scenario
-    assert np.allclose([robot.pose for robot in kept.robots], poses, atol=1e-3)
-    assert (kept.title, len(kept.props)) == ("A room", 1)
-    window.press("c")
-    window.says("room_2.toml")
-    twice = (folder / "room_2.toml").read_text()
-    assert (folder / "room_1.toml").read_text() == twice.replace("room_2", "room_1")
-
-
 @pytest.mark.parametrize("place", ["locked", "gone"])
 def test_where_no_file_can_be_made_words_say_so(open_window, folder, place):
     if place == "locked" and not sys.platform.startswith("linux"):
@@ -93,7 +77,7 @@ def test_where_no_file_can_be_made_words_say_so(open_window, folder, place):
     if place == "gone":
         folder.rmdir()
     words = "no file can be made"
-    for key in ("p", "v", "c"):
+    for key in ("p", "v"):
         window.press(key)
         window.says(words)
         assert not window.settle()["filming"]

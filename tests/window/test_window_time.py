@@ -6,35 +6,6 @@ import pytest
 from tests.window.person import HEADER, PLOT, differing
 
 
-def test_space_pauses_and_resumes(open_window):
-    window = open_window(1)
-    window.until(lambda s: s["time"] > 0.2)
-    window.press("space")
-    paused = window.until(lambda s: s["status"] == "paused")
-    before = window.still()
-    window.do("sleep", 0.2)
-    assert window.settle()["time"] == paused["time"]
-    assert differing(before, window.look()) == 0
-    window.press("space")
-    window.until(lambda s: s["status"] == "1x" and s["time"] > paused["time"] + 0.1)
-    assert window.shows(lambda seen: differing(before, seen) > 50)
-
-
-def test_arrows_step_on_and_back(open_window):
-    window = open_window(1)
-    window.press("Right")
-    first = window.until(lambda s: s["status"] == "paused")
-    before = window.still()
-    window.press("Right")
-    window.until(lambda s: s["row"] == first["row"] + 1)
-    assert window.settle()["row"] == first["row"] + 1
-    assert window.shows(lambda seen: differing(before, seen) > 20)
-    window.press("Left")
-    window.until(lambda s: s["row"] == first["row"] and s["past"])
-    # Paths that are drawn back differ by a shade here and there from paths that have grown.
-    assert window.shows(lambda seen: differing(before, seen, by=80) < 10)
-
-
 def test_arrows_repeat_when_held(open_window):
     window = open_window(1)
     window.press("Right")
@@ -108,22 +79,6 @@ def test_the_time_bar_is_clicked_and_dragged_to_look_back(open_window):
     window.until(lambda s: s["row"] > 3 and s["playing"])
 
 
-def test_r_restarts_also_when_it_is_over(open_window):
-    window = open_window(10, rows=20)
-    window.until(lambda s: s["over"])
-    window.press("r")
-    window.until(lambda s: s["restarts"] == 1 and s["row"] < 20)
-    window.until(lambda s: s["over"])
-
-
-def test_a_slow_sampling_time_moves_smoothly(open_window):
-    window = open_window(1, scenario={"sampling_time": 1.0}, rows=20)
-    times = set()
-    while len(times) < 9:
-        times.add(window.until(lambda s: s["time"] not in times)["time"])
-    assert max(times) < 1.5
-
-
 # -- a live experiment ----------------------------------------------------------------------------
 
 
@@ -152,12 +107,6 @@ def test_a_change_in_the_past_makes_a_branch_and_b_goes_to_the_other_one(open_wi
     window.until(lambda s: s["newest"] == 50 and s["robots"][1][:2] == there)
     window.press("b", "space")  # time goes on in the one that is seen
     window.until(lambda s: s["newest"] > newest)
-
-
-def test_without_another_branch_b_says_how_to_make_one(open_window, room):
-    window = open_window(0, experiment=str(room))
-    window.press("b")
-    window.says("there is no other branch")
 
 
 def test_the_past_is_exact(open_window, room):

@@ -24,9 +24,9 @@ from tests.physics.test_same_bits import assert_same, crowd, restless
 
 GENERATORS = {
     "capture_the_flag", "corner_game", "crowd", "dead_reckoning", "encirclement",
-    "follow_the_leader", "guard_the_line", "herding", "homicidal_chauffeur", "lion_and_man",
-    "pinned", "plan_push", "pursuit_corners", "pursuit_voronoi", "selfish_herd", "straight_chase",
-    "sumo", "token_ring", "two_cars", "wall_follower",
+    "follow_the_leader", "guard_the_line", "herding", "hide_and_seek", "homicidal_chauffeur",
+    "lion_and_man", "pinned", "plan_push", "pursuit_corners", "pursuit_voronoi", "round_a_pillar",
+    "selfish_herd", "straight_chase", "sumo", "token_ring", "two_cars", "wall_follower",
 }  # fmt: skip
 """Examples with laws that are generators."""
 
@@ -220,9 +220,3 @@ def test_what_can_not_be_copied_is_named():
     law.lock = threading.Lock()
     with pytest.raises(InputError, match=r"the law \w+ can't be copied: .*fork\(laws=False\)"):
         World(Scenario(robots=[Robot(controller=law)])).fork()
-
-
-def test_arrays_of_a_fork_can_not_be_written():
-    fork = stepped(World(remembering())).fork()
-    for array in (fork.pose, fork.command, fork.contacts, fork.prop_pose, fork.effort):
-        assert not array.flags.writeable

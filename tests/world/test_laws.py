@@ -19,11 +19,6 @@ def team(*laws, **fields) -> Scenario:
 # -- kinds of laws --------------------------------------------------------------------------
 
 
-def test_a_law_is_a_function_of_its_robot():
-    record = mars2d.run(team(lambda robot: (0.1, robot.index), lambda robot: (0.2, robot.index)))
-    assert record.command[0].tolist() == [[0.1, 0.2], [0, 1]]
-
-
 def test_a_law_can_be_a_generator_with_a_memory_of_its_own():
     def steps(robot):
         for speed in (0.1, 0.2, 0.3):
@@ -46,16 +41,6 @@ def test_when_a_generator_returns_its_robot_stands_still():
     assert record.finished
 
 
-def test_each_robot_runs_its_own_copy_of_a_generator():
-    def count(robot):
-        for k in range(9):
-            yield 0.01 * k * (robot.index + 1), 0
-
-    record = mars2d.run(team(count, count))
-    expected = np.array([[0, 0], [0.01, 0.02], [0.02, 0.04]])
-    assert record.command[:3, 0] == pytest.approx(expected)
-
-
 def test_a_law_can_be_any_callable():
     class Cruise:
         def __init__(self, speed):
@@ -75,11 +60,6 @@ def test_a_robots_own_law_overrides_its_column_of_the_teams():
     assert record.command[0].tolist() == [[0.1, 0.3], [0, 0.2]]
 
 
-def test_without_a_law_robots_stand_still():
-    record = mars2d.run(Scenario(robots=2, stop_time=1))
-    assert not record.command.any()
-
-
 @each_case(
     "value",
     [(0.2, 0.1), [0.2, 0.1], np.array([0.2, 0.1]), np.array([[0.2], [0.1]]),
@@ -96,14 +76,9 @@ def test_a_robots_command_is_two_numbers_in_any_container(value):
     ("value", "message"),
     [
         (None, "returned nothing: a law returns its command, such as `return v, omega`"),
-        (0.2, r"returned 0.2: expected two numbers"),
         ((1, 2, 3), r"returned \(1, 2, 3\): expected two numbers"),
-        ((float("nan"), 0), "a command must be finite"),
         ("12", "returned '12': expected two numbers"),
-        (("0.2", "0.1"), "expected two numbers"),
-        ((10**400, 0), "expected two numbers"),
         ((True, False), "expected two numbers"),
-        ((1j, 0), "expected two numbers"),
         ({0.1, 0.2}, "expected two numbers"),
     ],
 )
@@ -121,13 +96,9 @@ def test_what_is_no_command_says_what_was_returned_and_by_which_law(value, messa
     ("value", "message"),
     [
         (None, "returned nothing: a law returns its command, an array"),
-        (np.zeros((3, 2)), r"shape \(3, 2\): .*shape \(2, 3\); transpose it"),
         (np.zeros((2, 2)), r"shape \(2, 2\): expected two rows and a column for each robot"),
-        ([[0, np.inf, 0], [0, 0, 0]], "returned inf for robot 1"),
         ([["a", "b", "c"]] * 2, "expected two rows"),
-        ([["1", "2", "3"]] * 2, "expected two rows"),
         ([[1, 2, 3], [4]], "expected two rows"),
-        ([[10**400, 0, 0], [0, 0, 0]], "expected two rows"),
         ([[1j, 0, 0], [0, 0, 0]], "expected two rows"),
     ],
 )

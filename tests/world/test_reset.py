@@ -90,22 +90,6 @@ def test_commands_by_name_leave_the_other_laws_going():
     np.testing.assert_array_equal(commands[:, :, 1], alone.record.command[:, :, 1])
 
 
-def test_a_robot_that_is_commanded_has_its_law_not_asked():
-    asked = []
-    robot = Robot(controller=lambda robot: asked.append(robot.name) or (0, 0))
-    world = World(Scenario(robots=[robot.replace(name="a"), robot.replace(name="b").at(3, 0)]))
-    world.step({"a": (1, 0)})
-    world.step({1: np.array([0.5, 0.0])})
-    world.step({})
-    assert asked == ["b", "a", "a", "b"]
-
-
-def test_a_team_s_law_is_overridden_by_name():
-    world = World(scenario(robots=[Robot(name="red"), Robot(name="blue").at(1, 0)]), steer_all)
-    world.step({"blue": (0.25, 0.0)})
-    assert world.command.T.tolist() == [[0.1, 0.5], [0.25, 0.0]]
-
-
 def steer_all(world):
     return [[0.1, 0.1], [0.5, 0.5]]
 

@@ -3,7 +3,6 @@
 import numpy as np
 
 from mars2d.core.plane import outside_polygon
-from mars2d.world import room
 from mars2d.world.room import Room
 from tests.cases import each_case
 
@@ -32,23 +31,6 @@ def test_a_robot_on_the_edge_is_inside_and_one_beyond_it_is_not():
     here = Room(SQUARE, 3)
     assert here.left(np.array([[2.0, 2.0 + 0.9e-9, 2.0 + 1e-6], [0.0, 0.0, 0.0]])) == [2]
     assert here.left(np.array([[2.0 + 1e-6, 2.0, 2.0], [0.0, 0.0, 0.0]])) == [0]
-
-
-def test_robots_are_looked_at_closely_once_they_may_have_reached_the_edge(monkeypatch):
-    looked = []
-
-    def noted(x, y, polygon):
-        looked.append(x.tolist())
-        return plain(x, y, polygon)
-
-    plain = room.distance_to_ring
-    monkeypatch.setattr(room, "distance_to_ring", noted)
-    here = Room(SQUARE, 2)
-    for x in np.linspace(0.0, 1.75, 8):
-        assert here.left(np.array([[x, 0.0], [0.0, 0.0]])) == []
-    assert looked == [[0.0, 0.0]]
-    here.left(np.array([[-2.0, 0.0], [0.0, 0.0]]))
-    assert looked[1:] == [[-2.0]]
 
 
 def test_a_robot_that_is_put_far_away_is_found_there():

@@ -7,7 +7,6 @@ import pytest
 
 from mars2d import InputError, load
 from mars2d.cli.command_line import main
-from mars2d.output.formats.mcap import Log
 from mars2d.record.interventions import Change
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.world.timeline import Timeline, options_of
@@ -94,21 +93,6 @@ def test_before_the_first_step_a_run_begins_with_the_value_as_if_it_were_its_own
     assert timeline.experiment.options == {"speed": 0.1}
 
 
-def test_a_log_has_the_settings_of_each_start(tmp_path):
-    path = tmp_path / "file.py"
-    path.write_text(FILE)
-    with Log(tmp_path / "run.mcap") as log:
-        timeline = after(Timeline(open_experiment(path, {"speed": 0.3}), log=log), 5)
-        timeline.set({"mass": 2.0})
-        assert after(timeline, 5).set({"diameter": 0.4})
-        after(timeline, 5).set({"mass": 3.0})
-        after(timeline, 5)
-    record = load(tmp_path / "run.mcap")
-    assert record.options == {"speed": 0.3, "mass": 2.0, "diameter": 0.4}
-    assert [(each.row, each.options) for each in record.changes] == [(5, (("mass", 3.0),))]
-    assert rerun(record) is None
-
-
 def test_what_can_not_be_set_changes_nothing(timeline):
     after(timeline, 5)
     for options, words in (
@@ -148,14 +132,6 @@ def test_a_branch_off_the_past_has_the_values_of_now(timeline):
     assert dict(record.changes[0].options) == {"mass": 2.0, "speed": 0.4}
     assert speeds(record)[-1] == 0.4
     assert rerun(record) is None
-
-
-def test_a_value_set_in_the_past_begins_a_branch_there(timeline):
-    after(timeline, 10).go(5)
-    assert timeline.set({"speed": 0.4}) == ""
-    assert (timeline.row, len(timeline.branches)) == (5, 1)
-    record = after(timeline, 5).record
-    assert speeds(record) == [0.2] * 5 + [0.4] * (len(record) - 6)
 
 
 def test_an_experiment_without_a_file_takes_values_as_well():

@@ -10,7 +10,6 @@ from mars2d import LawError, Robot, Scenario
 from mars2d.addons import Communication, Map
 from mars2d.addons.base import Addon
 from mars2d.bodies.props import Box
-from mars2d.cli import outputs
 from mars2d.core.errors import InputError
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import Experiment, open_experiment
@@ -420,25 +419,6 @@ scenario = Scenario(robots=[Robot(name="red", controller=lambda robot: (0.1, {so
     assert len(timeline.branches) == 1
 
 
-def test_an_experiment_that_is_not_from_a_file(capsys):
-    def law(robot):
-        print("asked")
-        robot.memory.k = getattr(robot.memory, "k", 0) + 1
-        return 0.2, 0.01 * robot.memory.k
-
-    experiment = Experiment(Scenario(robots=[Robot(controller=law)], stop_time=3), seed=3)
-    expected = simulate(experiment).record
-    timeline = Timeline(experiment)
-    finish(timeline)
-    timeline.go(11)
-    branch(timeline)
-    assert timeline.remark == ""
-    finish(timeline)
-    assert timeline.record.digest == expected.digest
-    timeline.restart()
-    assert timeline.newest == 0
-
-
 # -- what laws do outside --------------------------------------------------------------------------
 
 
@@ -614,24 +594,6 @@ def test_the_record_of_a_window_run_is_run_again_to_the_bit(memory, tmp_path):
     loaded = mars2d.load(record.save(tmp_path / "run.npz"))
     assert rerun(loaded) is None
     assert loaded.branches == ()
-
-
-def test_all_branches_are_kept_in_files_and_none_is_overwritten(memory, tmp_path, capsys):
-    timeline = Timeline(open_experiment(memory, seed=3))
-    run_to(timeline, 30)
-    for row, y in ((20, -4.0), (10, -3.0)):
-        timeline.go(row)
-        timeline.change(lambda w, y=y: w.operator.place(0, (-4.0, y, 0.0)))
-        run_to(timeline, 25)
-    record = timeline.record
-    (tmp_path / "out_branch2.npz").write_text("mine")
-    outputs.save_record(tmp_path / "out.npz", record)
-    names = ["out.npz", "out_branch1.npz", "out_branch3.npz"]
-    saved = [mars2d.load(tmp_path / name).digest for name in names]
-    assert saved == [record.digest, *(branch.digest for branch in record.branches)]
-    assert len(set(saved)) == 3
-    assert (tmp_path / "out_branch2.npz").read_text() == "mine"
-    assert "another branch, left at 1.45 s, is in" in capsys.readouterr().err
 
 
 # -- started again --------------------------------------------------------------------------------

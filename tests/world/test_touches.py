@@ -92,7 +92,6 @@ def test_roles_and_walls_are_known_by_their_names():
     "value, message",
     [
         ("contacts", "expected 'contact', or pairs of names"),
-        ([], "expected 'contact', or pairs of names"),
         ([("red",)], "expected 'contact', or pairs of names"),
         (("red", "blu"), "Scenario.stop_on: nothing is called 'blu'; did you mean 'blue'?"),
     ],

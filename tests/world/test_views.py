@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d import Addon, Holonomic, LawError, Robot, Scenario, Sensor, Within, World
+from mars2d import Addon, Holonomic, LawError, Robot, Scenario, Sensor, World
 from mars2d.addons import Communication
-from mars2d.core.errors import UnknownNameError
 from mars2d.world.team_view import TeamPositionsView
 from mars2d.world.views import VIEWS, Neighbour, PropView, RobotView
 from tests.cases import each_case
@@ -120,13 +119,6 @@ def test_each_name_of_a_world_is_known_to_this_test():
     assert names(world.robots[0].world) == OF_POSITIONS | MORE
 
 
-def test_each_setting_is_known_to_this_test():
-    (sees,) = (f for f in Robot.__dataclass_fields__.values() if f.name == "sees")
-    for setting in VIEWS:
-        assert sees.metadata["check"]("sees", setting) == setting
-    assert set(VIEWS) | {"team"} == set(ALLOWED)
-
-
 def test_no_view_has_names_that_others_have_not():
     for sees, view in views().items():
         assert names(view) == ALLOWED["full"], sees
@@ -153,13 +145,6 @@ def test_a_law_may_use_what_its_setting_allows_and_is_refused_the_rest(sees):
             assert answer.startswith(f"{REFUSALS[sees]}: robot.{name} is not available"), name
 
 
-def test_the_message_names_the_setting_and_what_is_not_available():
-    with pytest.raises(LawError) as raised:
-        asked(lambda robot: robot.pose, "sensors")
-    message = untimed(raised.value).partition(": ")[2]
-    assert message == "this law sees sensors only: robot.pose is not available"
-
-
 def test_a_teams_law_that_sees_positions_may_use_these_and_is_refused_the_rest():
     found = asked_world(lambda world: answers(world, OF_POSITIONS | MORE | OF_WHO_RUNS_IT))
     for name in OF_POSITIONS:
@@ -171,22 +156,6 @@ def test_a_teams_law_that_sees_positions_may_use_these_and_is_refused_the_rest()
         assert found[name].startswith(f"a world has no {name!r}"), name
 
 
-@each_case(
-    ("sees", "question", "unseen"),
-    [
-        ("positions", lambda robot: robot.neighbours[0].xyzzy, "pose"),
-        ("sensors", lambda robot: robot.xyzzy, "pose"),
-        ("partial", lambda robot: robot.xyzzy, "world"),
-    ],
-)
-def test_what_a_law_may_not_see_is_not_listed_as_what_there_is(sees, question, unseen):
-    with pytest.raises(UnknownNameError, match="known: ") as raised:
-        asked(question, sees)
-    known = untimed(raised.value).partition("known: ")[2].split(", ")
-    assert "index" in known
-    assert unseen not in known
-
-
 # -- what is allowed is right -----------------------------------------------------------------
 
 
@@ -195,11 +164,6 @@ def test_a_law_sees_its_own_state_and_where_its_neighbours_are(sees):
     assert asked(lambda robot: robot.pose.tolist(), sees) == [1, 2, 3]
     assert asked(lambda robot: robot.position.tolist(), sees) == [1, 2]
     assert asked(lambda robot: [n.position.tolist() for n in robot.neighbours], sees) == [[2, 2]]
-
-
-@each_case("sees", ["full", "partial"])
-def test_with_partial_information_neighbours_have_poses(sees):
-    assert asked(lambda robot: robot.neighbours[0].pose.tolist(), sees) == [2, 2, 1]
 
 
 @each_case("sees", ["positions", "team"])
@@ -248,18 +212,6 @@ def test_a_team_that_sees_positions_has_readings_messages_memory_and_may_stop():
     assert mars2d.run(scenario, control=control).over_message == "after 2 steps"
 
 
-def test_a_robots_own_law_keeps_its_setting_in_a_team_that_sees_less():
-    def own(robot):
-        return robot.pose[2] / 10, 0
-
-    scenario = Scenario(
-        robots=[Robot(pose=(0, 0, 2), controller=own), Robot(pose=(2, 0, 0))],
-        sees="positions", stop_time=0,
-    )  # fmt: skip
-    record = mars2d.run(scenario, control=lambda world: np.zeros((2, 2)))
-    assert record.command[0, 0].tolist() == [0.2, 0]
-
-
 # -- no way round -----------------------------------------------------------------------------
 
 
@@ -282,24 +234,6 @@ def test_a_neighbour_that_is_kept_moves_on():
     robots = [Robot(controller=law), away]
     mars2d.run(Scenario(robots=robots, stop_time=1, sampling_time=0.5))
     assert seen == pytest.approx([1, 1.25, 1.5])
-
-
-def test_a_neighbour_that_has_gone_is_seen_no_more():
-    def law(robot):
-        friend = robot.neighbours[0]
-        while True:
-            yield 0.0 * friend.position[0], 0
-
-    away = Robot(pose=(1, 0, 0), controller=lambda robot: (0.5, 0))
-    robots = [Robot(controller=law, sees="positions"), away]
-    scenario = Scenario(robots=robots, stop_time=9, sampling_time=0.5, neighbours=Within(1.6))
-    with pytest.raises(LawError) as raised:
-        mars2d.run(scenario)
-    line = law.__code__.co_firstlineno + 3
-    assert untimed(raised.value) == (
-        f"test_views.py, line {line}: robot1 is no neighbour any more: ask robot.neighbours again"
-    )
-    assert raised.value.record.pose[-1, 0, 1] == pytest.approx(1.5)  # seen there, at 1.75 m not
 
 
 # -- what does not depend on what laws see ----------------------------------------------------

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 import mars2d
 from mars2d import Holonomic, InputError, LawError, Robot, Scenario, World
 from mars2d.addons import Addon, Map
-from mars2d.bodies.props import Ball, Box, Puck
+from mars2d.bodies.props import Ball, Box
 from mars2d.sensors import Sensor
 from tests.cases import each_case
 
@@ -66,14 +64,6 @@ def test_all_robots_are_sensed_before_any_is_commanded():
     assert seen == pytest.approx([0, 0, 0.04, 0.04, 0.08, 0.08, 0.12, 0.12])
 
 
-def test_time_is_the_iteration_times_the_sampling_time():
-    world = World(Scenario(sampling_time=0.3))
-    for k in range(50):
-        assert world.iteration == k
-        assert world.time == k * 0.3
-        world.step()
-
-
 def test_the_last_row_is_at_the_stop_time_and_nothing_moves_after_it():
     world = World(Scenario(stop_time=0.5))
     steps = 0
@@ -107,12 +97,6 @@ def test_leaving_the_workspace_names_the_robot_and_the_place():
     assert len(record) == 3
 
 
-def test_a_command_can_be_given_in_place_of_the_laws():
-    world = World(Scenario(), control=lambda _world: pytest.fail("asked"))
-    world.step([[0.3], [0.1]])
-    assert world.command.ravel().tolist() == [0.3, 0.1]
-
-
 @each_case("command", [[[0, 0], [0, 0]], [1, 2, 3], "x", [[np.nan], [0]], 5])
 def test_a_given_command_that_cannot_be_used_is_an_input_error(command):
     world = World(Scenario())
@@ -123,18 +107,6 @@ def test_a_given_command_that_cannot_be_used_is_an_input_error(command):
 
 
 # -- saturation -----------------------------------------------------------------------------
-
-
-@given(vx=st.floats(-3, 3), vy=st.floats(-3, 3), limit=st.floats(0.05, 2))
-def test_a_holonomic_robots_speed_is_shortened_in_its_direction(vx, vy, limit):
-    command = Holonomic(max_linear_speed=limit).saturate(np.array([[vx], [vy]])).ravel()
-    speed = np.hypot(vx, vy)
-    assert np.hypot(*command) <= limit * (1 + 1e-9)
-    if speed <= limit:
-        assert command.tolist() == [vx, vy]
-    else:
-        assert np.hypot(*command) == pytest.approx(limit)
-        assert command * speed == pytest.approx(np.array([vx, vy]) * limit)
 
 
 # -- what is read only ----------------------------------------------------------------------
@@ -154,19 +126,6 @@ def test_pose_command_history_and_contacts_cannot_be_written():
     ):  # fmt: skip
         with pytest.raises(ValueError, match="read-only"):
             array[...] = 0
-
-
-def test_a_law_cannot_change_a_reading_that_is_recorded():
-    class Beams(Sensor):
-        def read(self, robot, world, rng):
-            return np.ones(3)
-
-    def law(robot):
-        robot.sense.beams[:] = 0
-        return 0, 0
-
-    with pytest.raises(LawError, match="read-only"):
-        mars2d.run(Scenario(robots=[Robot(sensors=[Beams()], controller=law)]))
 
 
 # -- stepping from within -------------------------------------------------------------------
@@ -210,33 +169,6 @@ def test_what_was_recorded_until_an_error_is_kept(what):
     assert len(record) == 3
     assert record.pose[-1, 0, 0] == pytest.approx(0.02)
     assert "test_world.py, line" in str(raised.value)
-
-
-def test_an_error_in_a_sensor_or_addon_keeps_the_record_too():
-    class Frail(Sensor):
-        def read(self, robot, world, rng):
-            return 1 / (world.time < 0.25)
-
-    class Weak(Addon):
-        def on_step(self, world):
-            _ = 1 / (world.time < 0.25)
-
-    for scenario in (Scenario(robots=[Robot(sensors=[Frail()])]), Scenario(addons=[Weak()])):
-        with pytest.raises(LawError, match="ZeroDivisionError") as raised:
-            mars2d.run(scenario)
-        assert len(raised.value.record) == 3
-
-
-def test_ctrl_c_keeps_the_record_as_well():
-    def law(robot):
-        if robot.time > 0.25:
-            raise KeyboardInterrupt
-        return 0, 0
-
-    with pytest.raises(KeyboardInterrupt) as raised:
-        mars2d.run(Scenario(robots=[Robot(controller=law)]))
-    assert len(raised.value.record) == 3
-    assert "Interrupted" in raised.value.record.over_message
 
 
 # -- what a world tells ---------------------------------------------------------------------
@@ -287,16 +219,6 @@ def test_the_frame_shows_the_readings_of_this_instant_once_it_is_observed():
     assert world.record.sensors["clock"].ravel().tolist() == [0.0, 0.1]
 
 
-def test_worlds_of_one_scenario_share_nothing():
-    scenario = Scenario(robots=[Robot(), Robot(pose=(0.4, 0, 0))])
-    first, second = World(scenario), World(scenario)
-    for _ in range(5):
-        first.step([[0.4, 0], [0, 0]])
-    assert second.pose.tolist() == scenario.initial_pose.tolist()
-    assert second.iteration == 0
-    assert len(second.record) == 0
-
-
 # -- props and effort -----------------------------------------------------------------------------
 
 
@@ -320,14 +242,6 @@ def test_a_law_sees_the_props_where_they_are():
     assert world.velocity.shape == (3, 1)
 
 
-def test_a_prop_may_leave_the_workspace_and_the_run_goes_on():
-    world = World(Scenario(props=[Ball(pose=(4.5, 0), velocity=(9, 0))]))
-    for _ in range(3):
-        world.step()
-    assert world.prop_pose[0, 0] == pytest.approx(7.2)
-    assert not world.over
-
-
 def test_effort_is_none_in_free_motion_and_all_of_it_against_a_wall():
     square = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
     scenario = Scenario(robots=[Robot()], workspace=square, on_exit="wall")
@@ -341,25 +255,3 @@ def test_effort_is_none_in_free_motion_and_all_of_it_against_a_wall():
     effort = world.record.effort
     assert effort[:10].max() == 0
     assert effort[-1] == pytest.approx([1])
-
-
-def test_effort_is_the_share_of_the_force_that_a_load_takes():
-    # The floor holds the box with 0.25 x 1 kg x 9.81 m/s^2 = 2.45 N; the drive has 5 N.
-    box = Box(pose=(0.4, 0), mass=1.0, ground_friction=0.25)
-    world = World(Scenario(robots=[Robot()], props=[box]))
-    for _ in range(40):
-        world.step([[0.2], [0]])
-    assert world.effort == pytest.approx([0.25 * 9.81 / 5], rel=0.02)
-
-
-def test_a_frame_shows_props_contacts_and_efforts_of_this_instant():
-    world = World(Scenario(robots=[Robot()], props=[Puck(pose=(0.3, 0), ground_friction=0.4)]))
-    assert world.frame.prop_pose.tolist() == [[0.3], [0], [0]]
-    assert len(world.frame.contacts) == len(world.frame.contact_log()) == 0
-    for _ in range(9):
-        world.step([[0.2], [0]])
-    frame = world.frame
-    assert np.array_equal(frame.prop_pose, world.prop_pose)
-    assert frame.contacts.tobytes() == world.contacts.tobytes()
-    assert frame.effort.tolist() == world.effort.tolist()
-    assert len(frame.contact_log()) == len(world.record.contacts) > len(frame.contacts) == 1

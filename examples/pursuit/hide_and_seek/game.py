@@ -32,7 +32,7 @@ def scenario(
     mu: float = 0.0,
     seeker: str = "seekers/circle.py",
     hider: str = "hiders/opposite.py",
-    pillar: Annotated[float, Range(0.5, 4)] = 1.5,  # m, its radius
+    pillar: Annotated[float, Range(0.5, 3)] = 1.5,  # m, its radius
     seed: int = 0,
 ):
     def shadow(scene, frame):

@@ -14,12 +14,16 @@ def polar(record):
     return np.hypot(x, y), np.unwrap(np.arctan2(y, x), axis=0)
 
 
-def times(record):
-    """When the hider is seen by the formula, at most the stop time, and in the run [s]."""
-    (red, blue), (far, angle) = record.scenario.robots, polar(record)
-    (out, h), end = far[0], record.scenario.stop_time
+def times(record, step=0.0):
+    """When the hider is seen by the formula, at most the stop time, and in the run [s].
+
+    step: the time between two commands, s, by which both run on wider circles than they start.
+    """
+    (far, angle), end = polar(record), record.scenario.stop_time
+    speed = np.array([robot.drive.max_linear_speed for robot in record.scenario.robots])
+    out, h = far[0] + speed * step / (4 * far[0])
     pillar = np.hypot(*record.scenario.obstacles[0][0])
-    falls = red.drive.max_linear_speed / out - blue.drive.max_linear_speed / h  # rad/s
+    falls = speed[0] / out - speed[1] / h  # rad/s
     left = abs(wrap(angle[0, 1] - angle[0, 0])) - acos(pillar / out) - acos(pillar / h)
     return min(end, max(left, 0) / falls) if falls > 0 else end, record.time[-1]
 
@@ -35,5 +39,6 @@ def checks(record):
         yield Prediction.silent("the hider is not seen for", why)
         return
     free, measured = times(record)
-    late = 0.015 * free + record.scenario.sampling_time  # laws steer once a step
+    step = record.scenario.sampling_time
+    late = abs(free - times(record, step)[0]) + step
     yield Prediction("the hider is not seen for", free, measured, late, "s")

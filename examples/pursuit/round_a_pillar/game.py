@@ -39,7 +39,7 @@ def scenario(
     mu: float = 0.0,
     pursuer: str = "pursuers/shortest.py",
     evader: str = "evaders/opposite.py",
-    pillar: Annotated[float, Range(0.5, 4)] = 1.5,  # m, its radius
+    pillar: Annotated[float, Range(0.5, 3)] = 1.5,  # m, its radius
     seed: int = 0,
 ):
     def way(scene, frame):

@@ -14,15 +14,16 @@ def polar(record):
     return np.hypot(x, y), np.unwrap(np.arctan2(y, x), axis=0)
 
 
-def times(record, wider=0.0):
+def times(record, step=0.0):
     """When the evader is caught by the formula, at most the stop time, and in the run [s].
 
-    wider: by which share the evader's circle is wider than where it starts.
+    step: the time between two commands, s, by which it runs on a wider circle than it starts.
     """
     (red, blue), (far, angle) = record.scenario.robots, polar(record)
     (out, h), reach, end = far[0], record.scenario.addons[1].capture, record.scenario.stop_time
+    h += blue.drive.max_linear_speed * step / (4 * h)
     last = acos(np.clip((out**2 + h**2 - reach**2) / (2 * out * h), -1, 1))
-    falls = red.drive.max_linear_speed / out - blue.drive.max_linear_speed / h / (1 + wider)
+    falls = red.drive.max_linear_speed / out - blue.drive.max_linear_speed / h  # rad/s
     left = abs(wrap(angle[0, 1] - angle[0, 0])) - last
     return min(end, max(left, 0) / falls) if falls > 0 else end, record.time[-1]
 
@@ -39,6 +40,5 @@ def checks(record):
         return
     free, measured = times(record)
     step = record.scenario.sampling_time
-    wider = top[1] * step / (4 * far[0, 1] ** 2)  # of a law that steers once a step
-    late = free - times(record, wider)[0] + step
+    late = free - times(record, step)[0] + step
     yield Prediction("the evader is free for", free, measured, late, "s")

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 Float = NDArray[np.float64]
 
-ALWAYS = "GeoJSON, WKT and images need nothing"
+ALWAYS = "GeoJSON and images need nothing"
 """The maps that are read without the extra `maps`."""
 
 METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}

@@ -1,11 +1,10 @@
-"""GeoJSON and WKT: areas and lines in plane coordinates, as shapely reads them."""
+"""GeoJSON: areas and lines in plane coordinates, as shapely reads them."""
 
 from __future__ import annotations
 
 import json
-import re
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -35,48 +34,26 @@ def read_geojson(path: Path, unit: Unit | None) -> Drawing:
     unit: metres if None. A feature's layer is its property ``layer`` or ``name``. Degrees of
     longitude and latitude are no plane coordinates. Raises InputError.
     """
-    with broken(path.name, "GeoJSON"):
-        data = json.loads(path.read_text(encoding="utf-8-sig"))
-        return _drawing(path.name, "GeoJSON", unit, _features(data, NO_LAYER))
-
-
-def read_wkt(path: Path, unit: Unit | None) -> Drawing:
-    """Read well-known text, one geometry or several below each other, in plane coordinates.
-
-    unit: metres if None. Raises InputError.
-    """
     import shapely
 
-    with broken(path.name, "WKT"):
-        text = path.read_text(encoding="utf-8-sig").strip()
-        listed = re.sub(r"(\)|EMPTY)\s*\n\s*(?=[A-Za-z])", r"\1, ", text)
-        whole = shapely.from_wkt(f"GEOMETRYCOLLECTION ({listed})")
-        return _drawing(path.name, "WKT", unit, ((NO_LAYER, part) for part in _single(whole)))
-
-
-def _drawing(
-    name: str, kind: str, unit: Unit | None, found: Iterable[tuple[str, shapely.Geometry]]
-) -> Drawing:
-    """Return geometries of layers as a drawing, and count what is no area and no line."""
-    import shapely
-
-    unit = unit or Unit("m", 1.0, "supposed: the format names none")
+    name, unit = path.name, unit or Unit("m", 1.0, "supposed: the format names none")
     pieces: list[Piece] = []
     skipped: Counter[str] = Counter()
-    for layer, geometry in found:
-        check_finite(name, shapely.get_coordinates(geometry))
-        read = len(pieces)
-        if geometry.geom_type == "Polygon":
-            rings = [shapely.get_coordinates(ring) for ring in shapely.get_rings(geometry)]
-            areas = region([ring * unit.metres for ring in rings], even_odd=True)
-            pieces += [Piece(layer, area) for area in areas]
-        elif geometry.geom_type in ("LineString", "LinearRing"):
-            line = wall(name, layer, shapely.get_coordinates(geometry), unit.metres)
-            pieces += [line] if line else []
-        if len(pieces) == read:
-            lines = geometry.geom_type in ("Polygon", "LineString", "LinearRing")
-            skipped[f"{'empty ' * lines}{geometry.geom_type}"] += 1
-    return Drawing(name, kind, unit, tuple(pieces), skipped=dict(skipped))
+    with broken(name, "GeoJSON"):
+        data = json.loads(path.read_text(encoding="utf-8-sig"))
+        for layer, geometry in _features(data, NO_LAYER):
+            check_finite(name, shapely.get_coordinates(geometry))
+            kind, read = geometry.geom_type, len(pieces)
+            if kind == "Polygon":
+                rings = [shapely.get_coordinates(ring) for ring in shapely.get_rings(geometry)]
+                areas = region([ring * unit.metres for ring in rings], even_odd=True)
+                pieces += [Piece(layer, area) for area in areas]
+            elif kind == "LineString":
+                line = wall(name, layer, shapely.get_coordinates(geometry), unit.metres)
+                pieces += [line] if line else []
+            if len(pieces) == read:
+                skipped[f"{'empty ' * (kind in ('Polygon', 'LineString'))}{kind}"] += 1
+    return Drawing(name, "GeoJSON", unit, tuple(pieces), skipped=dict(skipped))
 
 
 def _features(data: Any, layer: str) -> Iterator[tuple[str, shapely.Geometry]]:

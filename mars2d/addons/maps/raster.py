@@ -142,7 +142,7 @@ def _grid(name: str, path: Path) -> Grid:
         if given.get("type") == "line_segments" or "layers" in given:
             raise InputError(
                 "a world of flatland, with layers or line_segments; expected the YAML file of one "
-                "occupancy grid: image, resolution, ..., or lines as WKT"
+                "occupancy grid: image, resolution, ..., or lines as GeoJSON"
             )
         if "image" not in given:
             raise InputError("expected an occupancy grid: image, resolution, origin, ...")

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from mars2d.addons.maps.drawing import MAX_TOLERANCE, METRES, TOLERANCE, Drawing, Unit, check_bytes
 from mars2d.addons.maps.dxf import read_dxf
-from mars2d.addons.maps.geo import read_geojson, read_wkt
+from mars2d.addons.maps.geo import read_geojson
 from mars2d.addons.maps.raster import IMAGES, MAX_BYTES, read_occupancy, read_picture
 from mars2d.addons.maps.svg import read_svg
 from mars2d.core.checks import point
@@ -29,7 +29,6 @@ KINDS = {
     ".dxf": _Kind(read_dxf, 10_000_000, ("layers", "unit", "within")),
     ".svg": _Kind(read_svg, 10_000_000, ("layers", "unit", "within")),
     **dict.fromkeys((".geojson", ".json"), _Kind(read_geojson, 10_000_000, ("layers", "unit"))),
-    ".wkt": _Kind(read_wkt, 10_000_000, ("unit",)),
     **dict.fromkeys((".yaml", ".yml"), _Kind(read_occupancy, 64_000)),
     **dict.fromkeys(IMAGES, _Kind(read_picture, MAX_BYTES, ("resolution",))),
 }

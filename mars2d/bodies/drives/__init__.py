@@ -2,10 +2,9 @@
 
 from mars2d.bodies.drives.base import Drive
 from mars2d.bodies.drives.car import Car
-from mars2d.bodies.drives.differential import Differential
 from mars2d.bodies.drives.dubins import Dubins
 from mars2d.bodies.drives.holonomic import Holonomic
 from mars2d.bodies.drives.omni import Omni
-from mars2d.bodies.drives.unicycle import Unicycle
+from mars2d.bodies.drives.wheeled import Differential, Unicycle
 
 __all__ = ["Car", "Differential", "Drive", "Dubins", "Holonomic", "Omni", "Unicycle"]

@@ -92,6 +92,8 @@ class Drive(Description):
 
     holonomic: ClassVar[bool] = False
     """Whether it can move in any direction at once."""
+    second_stick: ClassVar[bool] = False
+    """Whether a second stick turns it: then `steered` takes a third number."""
     wheel_names: ClassVar[tuple[str, str] | None] = None
     """The names of the two actuators if they are wheels, as the inspector shows them."""
 
@@ -140,12 +142,12 @@ class Drive(Description):
         """Return the commands (m, n) that ask for these speeds (A, n) of the actuators."""
         return actuators
 
-    def steered(self, across: float, ahead: float, turn: float = 0.0) -> tuple[float, ...]:  # noqa: ARG002
+    def steered(self, across: float, ahead: float) -> tuple[float, ...]:
         """Return the command that a stick asks for which is held across to the right, and ahead.
 
         across, ahead: from -1 to 1, in the picture for a drive that moves in the world's frame.
-        turn: of a second stick, to the right, for drives with three inputs. Here, the first number
-        of a command is a speed; the second is a spin, or a speed, too; others are 0.
+        Here, the first number of a command is a speed; the second is a spin, or a speed, too;
+        others are 0. A drive with a `second_stick` takes its deflection to the right, too.
         """
         most = self.max_linear_speed
         if self.frame == "world":
@@ -242,76 +244,3 @@ class Turning(Drive):
     def turning_radius(self, speed: float) -> float:
         """Return the least radius of its arcs at a speed [m/s], metres; 0: it turns on the spot."""
         return 0.0 if self.max_angular_speed is None else abs(speed) / self.max_angular_speed
-
-
-class Wheeled(Turning):
-    """The base of drives of two wheels on one axle, each of them an actuator.
-
-    Commands are (v [m/s], omega [rad/s]), and actuators the speeds of the wheels' rims,
-    v -+ wheel_semiaxis * omega [m/s]. `max_angular_speed` cuts omega and leaves v; then each rim is
-    cut by itself, which never makes omega larger.
-
-    With `noise` s, the semiaxis b and p = s^2 / T, v and omega are in a control step of T seconds
-    off by the variances p (v^2 + b^2 omega^2) / 2 and p (v^2 + b^2 omega^2) / (2 b^2): the velocity
-    motion model with alpha_1 = alpha_4 = p / 2, alpha_2 = p b^2 / 2, alpha_3 = p / (2 b^2).
-
-    Source of the model: Thrun, Burgard and Fox, Probabilistic Robotics (2005), section 5.3.
-    """
-
-    wheel_semiaxis: float = number(
-        default=0.1, low=1e-3, high=1e3, unit="m", doc="half the distance between the wheels"
-    )
-    wheel_names: ClassVar[tuple[str, str] | None] = ("left", "right")
-
-    @property
-    def inputs(self) -> tuple[Quantity, ...]:
-        """V [m/s] and omega [rad/s]."""
-        return Quantity("v", "m/s"), Quantity("omega", "rad/s")
-
-    def actuators(self, command: Float) -> Float:
-        """Return the speeds (2, n) of the left and the right wheel's rim, m/s."""
-        rims = np.empty(command.shape)
-        speed, turn = command[0], np.multiply(command[1], self.wheel_semiaxis, out=rims[1])
-        np.subtract(speed, turn, out=rims[0])
-        np.add(speed, turn, out=turn)
-        return rims
-
-    def command_for(self, actuators: Float) -> Float:
-        """Return (v, omega), (2, n), of rims with these speeds."""
-        left, right = actuators
-        return np.array([(left + right) / 2, (right - left) / (2 * self.wheel_semiaxis)])
-
-    def steered(self, across: float, ahead: float, turn: float = 0.0) -> tuple[float, ...]:  # noqa: ARG002
-        """Return the command that a stick asks for; it slows down as far as it needs to turn."""
-        most, spin = self.max_linear_speed, min(STICK_TURN, self.max_angular_speed or STICK_TURN)
-        rim = min(spin * self.wheel_semiaxis, most)
-        side, way = -rim * across, ahead * (most - rim * abs(across))
-        first, second = self.command_for(np.array([[way - side], [way + side]])).ravel().tolist()
-        return first, second
-
-    def saturate(self, command: Float) -> Float:
-        """Return commands (2, n) with omega, then each rim's speed, clipped to its bound."""
-        if self.max_angular_speed is not None:
-            command = self._turning_slowly(command, self.max_angular_speed)
-        rims, limit = self.actuators(command), self.max_linear_speed
-        over = np.abs(rims) > limit * (1 + ROUNDING)
-        if not np.count_nonzero(over):
-            return command
-        return np.where(over.any(axis=0), self.command_for(rims.clip(-limit, limit)), command)
-
-    def _turning_slowly(self, command: Float, most: float) -> Float:
-        """Return commands (2, n) with omega clipped to +-most [rad/s]."""
-        rims = self.actuators(command)
-        middle, half = (rims[0] + rims[1]) / 2, (rims[1] - rims[0]) / 2
-        limit = most * self.wheel_semiaxis
-        over = np.abs(half) > limit + ROUNDING * (limit + self.max_linear_speed)
-        if not np.count_nonzero(over):
-            return command
-        half = half.clip(-limit, limit)
-        return np.where(over, self.command_for(np.array([middle - half, middle + half])), command)
-
-    def twist(self, command: Float) -> Float:
-        """Return (v, 0, omega)."""
-        twist = np.zeros((3, command.shape[1]))
-        twist[::2] = command
-        return twist

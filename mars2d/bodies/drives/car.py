@@ -44,7 +44,7 @@ class Car(Turning):
         """The bounds of the acceleration [m/s^2] and of the steering rate [rad/s]."""
         return self.max_acceleration, self.max_steering_rate
 
-    def steered(self, across: float, ahead: float, turn: float = 0.0) -> tuple[float, ...]:  # noqa: ARG002
+    def steered(self, across: float, ahead: float) -> tuple[float, ...]:
         """Return the command that a stick asks for: across, it steers."""
         return self.max_linear_speed * ahead, -self.max_steering * across
 

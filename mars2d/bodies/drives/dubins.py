@@ -46,7 +46,7 @@ class Dubins(Turning):
         assert self.max_angular_speed is not None
         return self.max_angular_speed
 
-    def steered(self, across: float, ahead: float, turn: float = 0.0) -> tuple[float, ...]:  # noqa: ARG002
+    def steered(self, across: float, ahead: float) -> tuple[float, ...]:  # noqa: ARG002
         """Return the command that a stick asks for: across, it turns."""
         return self.max_linear_speed, -self._most * across
 

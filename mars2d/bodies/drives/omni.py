@@ -44,6 +44,7 @@ class Omni(Drive):
     )
 
     holonomic: ClassVar[bool] = True
+    second_stick: ClassVar[bool] = True
 
     def _validate(self) -> None:
         super()._validate()

@@ -2,8 +2,7 @@
 
 from mars2d.bodies.joints.base import Joint
 from mars2d.bodies.joints.hinge import Hinge
-from mars2d.bodies.joints.rod import Rod
-from mars2d.bodies.joints.rope import Rope
+from mars2d.bodies.joints.rope import Rod, Rope
 from mars2d.bodies.joints.spring import Spring
 
 __all__ = ["Hinge", "Joint", "Rod", "Rope", "Spring"]

@@ -1,4 +1,4 @@
-"""A rope: it pulls, and never pushes."""
+"""A rope pulls, and never pushes; a rod does both."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from math import pi, sqrt
 
 import numpy as np
 
-from mars2d.bodies.constraints import Constraint, MaxDistance
+from mars2d.bodies.constraints import Constraint, FixedDistance, MaxDistance
 from mars2d.bodies.joints.base import Float, Joint, beside
 from mars2d.core.arithmetic import cosines_sines, norm
 from mars2d.core.description import number
@@ -49,3 +49,16 @@ def _wave(start: Float, end: Float, length: float) -> Float:
     height *= 1 - 0.1 * apart / length
     share = np.linspace(0.0, 1.0, 49)
     return beside(start, end, share, height * cosines_sines(4 * pi * share)[1])
+
+
+class Rod(Joint):
+    """A rigid rod without weight: it keeps two points at a distance, and turns freely at both."""
+
+    length: float | None = number(
+        default=None, above=0, high=1e6, unit="m", optional=True,
+        doc="its length; None: the distance of its ends at the start",
+    )  # fmt: skip
+
+    def constraints(self, apart: float) -> tuple[Constraint, ...]:
+        """Return the distance of its ends."""
+        return (FixedDistance(apart if self.length is None else self.length),)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import inspect
 import os
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -10,6 +11,7 @@ from pathlib import Path
 from types import ModuleType
 
 from mars2d.addons import maps
+from mars2d.addons.map import Map
 from mars2d.cli import remarks
 from mars2d.cli.arguments import MANY, option, refuse
 from mars2d.cli.runs import run_headless
@@ -19,7 +21,7 @@ from mars2d.core.progress import progress
 from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
 from mars2d.scenario.experiment import Experiment, open_experiment, open_module
-from mars2d.scenario.options import options_in_words, parse_option, reading_options
+from mars2d.scenario.options import options_in_words, parse_option
 from mars2d.scenario.policy import SUFFIX as LEARNED
 from mars2d.scenario.policy import Policy
 from mars2d.scenario.robot import Robot
@@ -66,7 +68,7 @@ def execute(arguments: argparse.Namespace) -> None:
     if suffix not in maps.SUFFIXES:
         refuse(arguments, "set", f"is for maps: {', '.join(maps.SUFFIXES)}")
     if suffix in maps.SUFFIXES:
-        known = reading_options()
+        known = [name for name in inspect.signature(Map.from_file).parameters if name != "path"]
         if unknown := [name for name in options if name not in known]:
             raise InputError(f"--set {unknown[0]}: no option{nearest(unknown[0], known)}")
         drawing = maps.read(path, **options)

@@ -92,7 +92,7 @@ def _run(experiment: Experiment, mode: str) -> Record:
 def _save_film(records: dict[str, Record], arguments: argparse.Namespace) -> None:
     from mars2d.output.films.film import save_pictures
     from mars2d.window.compare_window import CompareWindow
-    from mars2d.window.trio import Trio
+    from mars2d.window.screen.source import Trio
 
     speed = film_speed(records["contact"].scenario, arguments.speed)
     cut = Cut.of(max(float(record.time[-1]) for record in records.values()), speed, FPS)

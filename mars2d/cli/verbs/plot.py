@@ -12,7 +12,6 @@ from mars2d.cli.arguments import option, refuse, shared, value
 from mars2d.cli.outputs import conclude, produced
 from mars2d.core.errors import InputError, nearest
 from mars2d.output.figures import figure
-from mars2d.output.figures.style import STYLES, style_of
 from mars2d.output.layers.table import LAYERS, Layers
 from mars2d.scenario.examples import examples
 from mars2d.world.record import Record, load
@@ -42,7 +41,6 @@ ARGUMENTS = {
     "--columns": option("A,B,...", "signals: such as x,speed,effort", _NAMES),
     "--robots": option("A,B,...", "signals: of robots, by name or index", _NAMES),
     "--layers": option("A,B,...", "such as names,neighbours,no-grid", _NAMES),
-    "--style": option("STYLE", ", ".join(STYLES), default="screen"),
     **shared("figure at from to"),
 }
 
@@ -58,7 +56,6 @@ def execute(arguments: argparse.Namespace) -> None:
             refuse(arguments, name, f"is for {' and '.join(kinds)}: {other}")
     if kind == "snapshots" and arguments.at is None:
         raise InputError("snapshots need their times, such as --at 0,5,end")
-    look = style_of(arguments.style)
     if path.suffix in (".py", ".toml") or (str(path) in examples() and not path.exists()):
         first = f"mars2d run {path} --record {path.stem}.npz"
         raise InputError(f"{path}: an experiment; run it first: {first}")
@@ -68,28 +65,27 @@ def execute(arguments: argparse.Namespace) -> None:
     free = (Path(name) for name in names if not Path(name).exists())
     arguments.figure = arguments.figure or next(free)
     drawing = partial(_drawing, arguments, record, layers)
-    save = partial(figure.save_drawing, drawing, arguments.figure, trim=look.trim, dpi=look.dpi)
+    save = partial(figure.save_drawing, drawing, arguments.figure)
     conclude(*produced(arguments, {"figure": save}))
 
 
 def _drawing(arguments: argparse.Namespace, record: Record, layers: Layers | None) -> Any:
     """Return the figure."""
-    kind, style = arguments.kind, arguments.style
+    kind = arguments.kind
     if kind == "paths":
-        return figure.plot_paths(record, style=style, layers=layers).figure
+        return figure.plot_paths(record, layers=layers).figure
     if kind == "snapshots":
-        return figure.plot_snapshots(record, arguments.at, style=style, layers=layers)
+        return figure.plot_snapshots(record, arguments.at, layers=layers)
     if kind == "contacts":
-        return record.plot_contacts(style=style)[0].figure
+        return record.plot_contacts()[0].figure
     if kind == "distances":
-        return record.plot_distances(style=style).figure
+        return record.plot_distances().figure
     columns = {"energy": ("energy", "kinetic"), "momentum": ("momentum",)}
     return record.plot_signals(
         *columns.get(kind, arguments.columns or ()),
         robots=_robots(arguments.robots, record),
         start=arguments.start,
         end=arguments.end,
-        style=style,
     )[0].figure
 
 

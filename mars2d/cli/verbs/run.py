@@ -30,7 +30,7 @@ from mars2d.world.world import Watcher
 FOXGLOVE = 8765
 """The port at which Foxglove looks for a server."""
 
-_SAVED = "save all data: .npz, .csv, or .mcap, which is written during the run; .mat, .nc"
+_SAVED = "save all data: .npz, .csv, or .mcap, which is written during the run; .mat"
 _SERVED = f"serve the run to Foxglove on this machine while it goes on, at port {FOXGLOVE}"
 _DRIVEN = "a robot to drive by hand: its name or index, or a role; may be given twice"
 

@@ -9,7 +9,6 @@ from mars2d.cli.arguments import MANY, Output, option, refuse, shared
 from mars2d.cli.outputs import conclude, produced
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.terminal import tell
-from mars2d.output.figures.style import STYLES, style_of
 from mars2d.study.kept import records_beside
 from mars2d.study.plan import parse_all, seeds_of
 from mars2d.study.run import sweep
@@ -37,7 +36,6 @@ ARGUMENTS = {
     "--measure": option("NAME", _MEASURE, **MANY),
     "--out": option("OUT.csv", f"file of the rows (default: {TABLE})", Path, action=Output),
     "--figure": option("OUT", "draw the measures: .png, .pdf, .svg", Path, action=Output),
-    "--style": option("STYLE", f"of the figure: {', '.join(STYLES)}"),
     "--compare": option("KEY", "compare a setting's values, seed by seed"),
     "--confidence": option("P", "of intervals (default: 0.95)", float, default=0.95),
     "--time-limit": option("S", "seconds that a run may take", float),
@@ -50,9 +48,6 @@ ARGUMENTS = {
 def execute(arguments: argparse.Namespace) -> None:
     """Run an experiment over settings and seeds into a table."""
     given = arguments.experiment
-    if arguments.figure is None:
-        refuse(arguments, "style", "needs --figure OUT: it is of a figure")
-    style_of(arguments.style or "screen")
     confident(arguments.confidence)
     if given.lower().endswith(".csv"):
         refuse(arguments, OF_RUNS, f"is for new runs: {given} is there already")
@@ -98,7 +93,6 @@ def _report(arguments: argparse.Namespace, table: Table, path: Path) -> None:
     def draw() -> None:
         from mars2d.study.figure import save_study_figure
 
-        look, confidence = arguments.style or "screen", arguments.confidence
-        save_study_figure(table, arguments.figure, confidence=confidence, style=look)
+        save_study_figure(table, arguments.figure, confidence=arguments.confidence)
 
     conclude(*produced(arguments, {"figure": draw}))

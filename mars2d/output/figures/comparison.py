@@ -14,18 +14,10 @@ from numpy.typing import NDArray
 
 from mars2d.core.errors import counted
 from mars2d.output.figures.extent import View
-from mars2d.output.figures.figure import (
-    INK,
-    MUTED,
-    dress,
-    label,
-    new_figure,
-    paint_frame,
-    save_drawing,
-)
+from mars2d.output.figures.figure import dress, label, new_figure, paint_frame, save_drawing
 from mars2d.output.figures.legend import Entry, add_legend
 from mars2d.output.figures.panels import caption, frame_panel, say
-from mars2d.output.figures.style import SCREEN
+from mars2d.output.figures.style import INK, MUTED, points
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -96,7 +88,7 @@ def save_comparison(records: Mapping[str, Rows], path: str | Path) -> Path:
 
     Raises InputError for another suffix or a path that can't be written.
     """
-    return save_drawing(lambda: plot_comparison(records), path, trim=False)
+    return save_drawing(lambda: plot_comparison(records), path)
 
 
 def plot_comparison(records: Mapping[str, Rows]) -> Figure:
@@ -142,11 +134,11 @@ def plot_drift(records: Mapping[str, Rows], ax: Axes) -> None:
     """Draw the drift of "stop" and "ideal" from "contact" over time."""
     found = drifts(records)
     most = max(float(drift.max.max()) for drift in found.values())
-    frame_panel(ax, SCREEN, [1, 2, 5, 10])
+    frame_panel(ax, [1, 2, 5, 10])
     end = max(float(record.time[-1]) for record in records.values())
     ax.set_xlim(0, end if end > 0 else 1)
-    ax.set_xlabel("time [s]", color=INK, fontsize=SCREEN.label)
-    caption(ax, "drift", "m", SCREEN)
+    ax.set_xlabel("time [s]", color=INK, fontsize=points())
+    caption(ax, "drift", "m")
     ax.set_ylim(0, 1.06 * most if most >= NO_DRIFT else 1)
     entries = []
     for mode, drift in found.items():
@@ -161,6 +153,6 @@ def plot_drift(records: Mapping[str, Rows], ax: Axes) -> None:
     title = f"How far each {body} is from where contact puts it"
     ax.set_title(title, loc="left", fontsize=11, color=INK, pad=8)
     place = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0)}
-    add_legend(ax, entries, SCREEN, ncols=len(entries), **place)
+    add_legend(ax, entries, ncols=len(entries), **place)
     if most < NO_DRIFT:
-        say(ax, "no drift: the three runs agree", SCREEN)
+        say(ax, "no drift: the three runs agree")

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import combinations, pairwise
-from math import ceil
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.errors import ordinal
 from mars2d.core.plane import lines_and_areas
 from mars2d.geometry.shapes import Piece
 from mars2d.output.figures.contacts import pair_name
 from mars2d.output.figures.extent import check_rows
 from mars2d.output.figures.panels import name_curves, panels, say
 from mars2d.output.figures.signals import draw_signals
-from mars2d.output.figures.style import style_of
+from mars2d.output.figures.style import INK
 from mars2d.output.signals import Signal
 
 if TYPE_CHECKING:
@@ -30,21 +28,15 @@ Float = NDArray[np.float64]
 MAX_CURVES = 6
 """The most pairs with a curve each; for more, a band is drawn."""
 
-MAX_DISC_GAPS, MAX_PIECE_GAPS = 2e7, 1e6
-"""The most distances to compute, between discs and between other shapes; beyond, rows are skipped.
-One takes about 20 ns and 2 us."""
-
 
 @dataclass(frozen=True, eq=False)
 class Clearances:
     """The gaps between surfaces over time, metres: 0 in contact, negative in overlap.
 
-    every: the distance of the rows of the record at which they were computed. pairs: (p, 2),
-    bodies, at least one of them a robot. pair: (T', p), the gaps of the pairs. obstacle: (T', n),
+    pairs: (p, 2), bodies, at least one of them a robot. pair: (T, p), their gaps. obstacle: (T, n),
     the gap of each robot to the nearest obstacle or wall, or None if there are none.
     """
 
-    every: int
     pairs: NDArray[np.intp]
     pair: Float
     obstacle: Float | None
@@ -55,8 +47,8 @@ def clearances(record: Rows) -> Clearances:
 
     A clearance is the shortest distance between two outlines. For two discs that overlap, it is
     minus the depth of the overlap; for other shapes it is never less than minus the radii of their
-    rounded pieces. Bodies joined by a hinge are left out, since they don't collide. If a run is so
-    long that computing all rows would take minutes, only every k-th row is used.
+    rounded pieces. Bodies joined by a hinge are left out, since they don't collide. A gap takes
+    about 20 ns between discs and 2 us between other shapes.
     """
     n, bodies = len(record.scenario.robots), record.scenario.bodies
     pairs = [
@@ -64,28 +56,23 @@ def clearances(record: Rows) -> Clearances:
         for a, b in combinations(range(len(bodies)), 2)
         if a < n and (a, b) not in record.scenario.joined
     ]
-    is_disc = [all(len(p.vertices) == 1 for p in body.shape.pieces) for body in bodies]
-    discs = sum(is_disc[a] and is_disc[b] for a, b in pairs)
     scenarios = [record.scenario, *(change.scenario for change in record.changes)]
     obstacles = any(scenario.surfaces for scenario in scenarios)
-    others = len(pairs) - discs + (n if obstacles else 0)
-    every = ceil(len(record) * max(discs / MAX_DISC_GAPS, others / MAX_PIECE_GAPS, 1 / len(record)))
-    rows = np.arange(0, len(record), every)
-    placed = _Placed(record, rows)
-    gaps = np.empty((len(rows), len(pairs)))
+    placed = _Placed(record)
+    gaps = np.empty((len(record), len(pairs)))
     for k, (a, b) in enumerate(pairs):
         gaps[:, k] = placed.between(a, b)
-    to_obstacles = _to_obstacles(record, placed, rows) if obstacles else None
-    return Clearances(every, np.array(pairs, dtype=np.intp).reshape(-1, 2), gaps, to_obstacles)
+    to_obstacles = _to_obstacles(record, placed) if obstacles else None
+    return Clearances(np.array(pairs, dtype=np.intp).reshape(-1, 2), gaps, to_obstacles)
 
 
 class _Placed:
     """The convex pieces of each body at its poses over time."""
 
-    def __init__(self, record: Rows, rows: NDArray[np.intp]) -> None:
-        """Take the bodies of a record, where they are at some rows."""
+    def __init__(self, record: Rows) -> None:
+        """Take the bodies of a record."""
         self.pieces = [body.shape.pieces for body in record.scenario.bodies]
-        self._poses = record.all_poses[rows]
+        self._poses = record.all_poses
         self._outlines: dict[tuple[int, int], Any] = {}
 
     def _points(self, body: int, piece: Piece) -> Float:
@@ -122,18 +109,17 @@ class _Placed:
         return np.asarray(np.min(gaps, axis=0))
 
 
-def _to_obstacles(record: Rows, placed: _Placed, rows: NDArray[np.intp]) -> Float:
-    """Return the clearance of each robot to its nearest obstacle, (T', n) metres; nan if none."""
+def _to_obstacles(record: Rows, placed: _Placed) -> Float:
+    """Return the clearance of each robot to its nearest obstacle, (T, n) metres; nan if none."""
     import shapely
 
     n = len(record.scenario.robots)
-    result = np.full((len(rows), n), np.nan)
+    result = np.full((len(record), n), np.nan)
     changed = sorted({change.row for change in record.changes})
     edges = [0, *(row for row in changed if 0 < row < len(record)), len(record)]
     for begin, end in pairwise(edges):
         scenario = record.scenario_at(begin)
-        which = np.flatnonzero((rows >= begin) & (rows < end))
-        if not scenario.surfaces or not len(which):
+        if not scenario.surfaces:
             continue
         solid = lines_and_areas(scenario.obstacles)
         if len(scenario.surfaces) > len(scenario.obstacles):  # the wall stands round the robots
@@ -142,17 +128,17 @@ def _to_obstacles(record: Rows, placed: _Placed, rows: NDArray[np.intp]) -> Floa
         shapely.prepare(everything)
         for robot in range(n):
             gaps = [
-                shapely.distance(everything, placed.outlines(robot, k)[which]) - piece.radius
+                shapely.distance(everything, placed.outlines(robot, k)[begin:end]) - piece.radius
                 for k, piece in enumerate(placed.pieces[robot])
             ]
-            result[which, robot] = np.min(gaps, axis=0)
+            result[begin:end, robot] = np.min(gaps, axis=0)
     return result
 
 
 # -- the figure -----------------------------------------------------------------------------------
 
 
-def plot_distances(record: Rows, ax: Axes | None = None, *, style: str = "screen") -> Axes:
+def plot_distances(record: Rows, ax: Axes | None = None) -> Axes:
     """Draw clearances over time: the distances between surfaces, 0 in contact.
 
     Up to six pairs (of robots, or a robot and a prop) have a curve each. For more, the figure shows
@@ -160,10 +146,9 @@ def plot_distances(record: Rows, ax: Axes | None = None, *, style: str = "screen
     curve shows the clearance of the robot nearest to an obstacle or wall. For the definition see
     `clearances`.
 
-    ax: matplotlib axes to draw on; by default those of a new figure. style: as in `Record.plot`.
+    ax: matplotlib axes to draw on; by default those of a new figure.
     Returns the axes. Raises InputError for a record without rows.
     """
-    look = style_of(style)
     check_rows(record)
     found, scenario = clearances(record), record.scenario
     drawn: dict[str, Float] = {}
@@ -177,22 +162,20 @@ def plot_distances(record: Rows, ax: Axes | None = None, *, style: str = "screen
     if found.obstacle is not None:
         whose = "nearest robot" if len(scenario.robots) > 1 else "robot"
         drawn[f"{whose} to an obstacle"] = np.fmin.reduce(found.obstacle, axis=1)
-    unit = "m" if found.every == 1 else f"m, every {ordinal(found.every)} row"
-    with look.fonts():
-        (ax,) = panels(record, None if ax is None else [ax], ["clearance"], look, [2.2])
+    (ax,) = panels(record, None if ax is None else [ax], ["clearance"], [2.2])
     if drawn:
         values = np.stack(list(drawn.values()), axis=1)
-        signal = Signal("clearance", unit, values, (), curves=tuple(drawn))
-        draw_signals(record, [signal], [ax], rows=slice(None, None, found.every), style=style)
-        ax.axhline(0.0, color=look.ink, linewidth=0.8 * look.stroke, zorder=2.5)
+        signal = Signal("clearance", "m", values, (), curves=tuple(drawn))
+        draw_signals(record, [signal], [ax])
+        ax.axhline(0.0, color=INK, linewidth=0.8, zorder=2.5)
     else:
-        say(ax, "no distances: there is one body and no obstacle", look)
-        name_curves(ax, scenario.title, [], look)
+        say(ax, "no distances: there is one body and no obstacle")
+        name_curves(ax, scenario.title, [])
     return ax
 
 
 def nearest_body(found: Clearances, robots: int) -> Float:
-    """Return the clearance of each robot to its nearest body, (T', n) metres."""
+    """Return the clearance of each robot to its nearest body, (T, n) metres."""
     nearest = np.full((len(found.pair), robots), np.inf)
     for k, (a, b) in enumerate(found.pairs.tolist()):
         for body in (a, b):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -99,35 +99,27 @@ def check_rows(record: Rows, what: str = "draw") -> None:
         raise InputError(f"the record has no rows: nothing ran, so there is nothing to {what}")
 
 
-def is_end(time: object) -> bool:
-    """Return whether a time is the word for the end of a run."""
-    return isinstance(time, str) and time == "end"
-
-
 def rows_at(record: Rows, times: ArrayLike) -> list[int]:
     """Return the last row of a record at or before each of the times [s], or "end".
 
     Raises InputError for a time outside the record, and for no times or too many.
     """
     check_rows(record)
-    expected = 'expected times in seconds, such as [0, 2.5, "end"]'
-    if isinstance(times, (list, tuple)):
-        times = [record.time[-1] if is_end(time) else time for time in times]
-    try:
-        wanted = np.atleast_1d(np.asarray(record.time[-1] if is_end(times) else times))
-    except ValueError:
-        raise InputError(f"times = {shown(times)}: {expected}") from None
-    if wanted.ndim != 1 or wanted.dtype.kind not in "iuf":
-        raise InputError(f"times = {shown(times)}: {expected}")
-    if not 1 <= len(wanted) <= PANEL_LIMIT:
-        raise InputError(f"times: {len(wanted)} of them; a figure has 1 to {PANEL_LIMIT} panels")
     first, last = float(record.time[0]), float(record.time[-1])
     hair = 1e-6 * record.scenario.sampling_time  # 3 * 0.1 is a little more than 0.3
+    given: Any = [times] if isinstance(times, str | float | int) else times
+    try:
+        wanted = np.array([last if time == "end" else float(time) for time in given])
+    except (TypeError, ValueError):
+        expected = 'expected times in seconds, such as [0, 2.5, "end"]'
+        raise InputError(f"times = {shown(times)}: {expected}") from None
+    if not 1 <= len(wanted) <= PANEL_LIMIT:
+        raise InputError(f"times: {len(wanted)} of them; a figure has 1 to {PANEL_LIMIT} panels")
     for time in wanted.tolist():
         if not first - hair <= time <= last + hair:  # true for NaN as well
             raise InputError(
                 f"times: {time:.10g} s is outside of the record, "
                 f"which goes from {first:.10g} to {last:.10g} s"
             )
-    rows = np.searchsorted(record.time, wanted.astype(float) + hair, side="right") - 1
+    rows = np.searchsorted(record.time, wanted + hair, side="right") - 1
     return [max(0, row) for row in rows.tolist()]

@@ -1,12 +1,11 @@
-"""Legends of figures: curves and robots by their looks, and the signs of layers."""
+"""Legends of figures: curves and robots by their looks."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from mars2d.output.figures.style import SCREEN, Style
-from mars2d.output.layers.arrows import Sign
+from mars2d.output.figures.style import INK, SMALL, points
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -29,54 +28,39 @@ class Entry(NamedTuple):
     hollow: bool = False
 
 
-def add_legend(ax: Axes, entries: Sequence[Entry | Sign], look: Style, **place: Any) -> None:
+def add_legend(ax: Axes, entries: Sequence[Entry], **place: Any) -> None:
     """Add a legend to axes, beside others that they have; place: options of matplotlib's."""
     if not entries:
         return
     from matplotlib.lines import Line2D
 
-    from mars2d.output.figures.handler import SignHandler
-
-    handles: list[Any] = [
-        entry
-        if isinstance(entry, Sign)
-        else Line2D(
-            [], [], color=entry.color, linestyle=_dash_of(entry), linewidth=entry.width,
-            marker=entry.marker, markersize=0.67 * look.small,
+    small = points(SMALL)
+    dashes: list[Any] = [entry.dash or "none" for entry in entries]
+    handles = [
+        Line2D(
+            [], [], color=entry.color, linestyle=dash, linewidth=entry.width,
+            marker=entry.marker, markersize=0.67 * small,
             markerfacecolor="white" if entry.hollow else entry.color,
             markeredgewidth=entry.width if entry.hollow else 0.0,
         )
-        for entry in entries
+        for entry, dash in zip(entries, dashes, strict=True)
     ]  # fmt: skip
+    before = ax.get_legend()
     legend = ax.legend(
-        handles, [entry.name for entry in entries], frameon=False, fontsize=look.small,
-        labelcolor=look.ink, handlelength=column_width(entries, look) / look.small,
-        columnspacing=1.2, handletextpad=0.5, labelspacing=0.3,
-        handler_map={Sign: SignHandler(sign_scale(look))},
-        **({"borderpad": 0.0, "borderaxespad": 0.3} | place),
+        handles, [entry.name for entry in entries], frameon=False, fontsize=small, labelcolor=INK,
+        handlelength=2.0 if any(entry.dash for entry in entries) else 1.0, columnspacing=1.2,
+        handletextpad=0.5, labelspacing=0.3, **({"borderpad": 0.0, "borderaxespad": 0.3} | place),
     )  # fmt: skip
-    ax.add_artist(legend)  # a further one of these axes would take its place
+    if before is not None:
+        ax.add_artist(before)  # whose place the new one takes
     legend.set_clip_on(False)
     for text in legend.get_texts():
         text.set_parse_math(False)
 
 
-def _dash_of(entry: Entry) -> Any:
-    """Return an entry's line style, which Matlab and matplotlib name alike."""
-    return entry.dash or "none"
-
-
-def column_width(entries: Sequence[Entry | Sign], look: Style) -> float:
-    """Return the width of the column of lines and signs in a legend, points."""
-    lines = any(isinstance(entry, Entry) and entry.dash for entry in entries)
-    own = look.small * ((3.2 if look.greys else 2.0) if lines else 1.0)
-    rooms = [entry.room for entry in entries if isinstance(entry, Sign)]
-    return max(own, sign_scale(look) * max(rooms, default=0.0))
-
-
-def sign_scale(look: Style) -> float:
-    """Return the factor for the size of signs, which are made for the window."""
-    return 0.65 * look.small / SCREEN.small
+def legend_width(entries: Sequence[Entry]) -> float:
+    """Return the approximate width of a legend, inches."""
+    return points(SMALL) / 72 * (3.5 + 0.6 * max((len(each.name) for each in entries), default=-4))
 
 
 def plain_name(name: str) -> str:

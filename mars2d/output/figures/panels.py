@@ -17,9 +17,8 @@ from mars2d.output.figures.figure import (
     show_in_notebooks,
     style_ticks,
 )
-from mars2d.output.figures.labels import shortened, wrapped
 from mars2d.output.figures.legend import Entry, add_legend
-from mars2d.output.figures.style import Style
+from mars2d.output.figures.style import GRID, INK, LINE, MUTED, SMALL, TITLE, points
 from mars2d.output.signals import thinned
 
 if TYPE_CHECKING:
@@ -30,11 +29,11 @@ if TYPE_CHECKING:
 
 Float = NDArray[np.float64]
 
-MAX_VERTICES = 15_000
-"""The most points in a panel, over all its curves, approximately."""
+WIDTH, PANEL = 7.6, 1.45
+"""The width of a figure, and the height of a panel, inches."""
 
-MAX_BLOCKS, MIN_BLOCKS = 1000, 30
-"""The limits of the blocks into which a long curve is cut; each block keeps its extremes."""
+VERTICES = 15_000
+"""The most points in a panel, over all its curves, approximately."""
 
 CAPTION_LETTERS, CAPTION_HEIGHT = 12, 0.5
 """The letters in a line of a caption, at most, and its height as a share of the panel's."""
@@ -47,7 +46,6 @@ def panels(
     record: Rows,
     axes: Sequence[Axes] | None,
     names: Sequence[str],
-    look: Style,
     heights: Sequence[float] = (),
     rows: slice = slice(None),
 ) -> list[Axes]:
@@ -60,9 +58,8 @@ def panels(
         given = checked_axes(axes, len(names), f"({', '.join(names)})")
     else:
         tall = sum(heights) if heights else len(names)
-        width, height = look.page or (look.full or 7.6, tall * look.panel + 0.09 * look.label)
         grid = {"height_ratios": list(heights) or [1] * len(names)}
-        made = new_figure(width, height).subplots(
+        made = new_figure(WIDTH, tall * PANEL + 0.9).subplots(
             len(names), 1, sharex=True, squeeze=False, gridspec_kw=grid
         )
         given = list(made.ravel())
@@ -70,9 +67,9 @@ def panels(
     begin, end = record.time[rows][[0, -1]].tolist()
     for ax in given:
         ax.set_xlim(begin, end if end > begin else begin + record.scenario.sampling_time)
-        frame_panel(ax, look, [1, 2, 4, 5, 10])
+        frame_panel(ax, [1, 2, 4, 5, 10])
         if ax is given[-1] or not ax.get_shared_x_axes().joined(ax, given[-1]):
-            ax.set_xlabel("time [s]", color=look.ink, fontsize=look.label)
+            ax.set_xlabel("time [s]", color=INK, fontsize=points())
     return given
 
 
@@ -90,17 +87,17 @@ def checked_axes(axes: Sequence[Axes], count: int, panels: str) -> list[Axes]:
     return given
 
 
-def frame_panel(ax: Axes, look: Style, steps: Sequence[float]) -> None:
+def frame_panel(ax: Axes, steps: Sequence[float]) -> None:
     """Set grid, ticks and spines of a panel. steps: those between ticks of its values, 1 to 10."""
     from matplotlib.ticker import FuncFormatter, MaxNLocator
 
     ax.set_facecolor("white")
-    ax.grid(visible=True, color=look.grid, linewidth=0.6 * look.stroke)
+    ax.grid(visible=True, color=GRID, linewidth=0.6)
     ax.set_axisbelow(True)
-    style_ticks(ax, look)
-    ax.spines[:].set(color=look.line, linewidth=0.8 * look.stroke)
+    style_ticks(ax)
+    ax.spines[:].set(color=LINE, linewidth=0.8)
     ax.spines[["top", "right"]].set_visible(False)
-    bins = int(np.clip(size_of(ax)[1] / (2.4 * look.small), 2, 5))
+    bins = int(np.clip(size_of(ax)[1] / (2.4 * points(SMALL)), 2, 5))
     ax.yaxis.set_major_locator(MaxNLocator(nbins=bins, steps=steps, min_n_ticks=2))
     ax.yaxis.set_major_formatter(FuncFormatter(short_number))
 
@@ -110,42 +107,41 @@ def short_number(value: float, _: int = 0) -> str:
     return f"{round(value, 12) + 0.0:g}".replace("-", "\N{MINUS SIGN}")
 
 
-def caption(ax: Axes, name: str, unit: str, look: Style) -> None:
+def caption(ax: Axes, name: str, unit: str) -> None:
     """Write a panel's name and unit beside its axis of values, horizontally."""
     text = f"{name} [{unit}]" if unit else name
     if len(text) > CAPTION_LETTERS:
-        lines = max(2, int(CAPTION_HEIGHT * size_of(ax)[1] / (look.spacing * look.label)))
-        name = shortened(name, lines * CAPTION_LETTERS)
-        text = "\n".join([wrapped(name, CAPTION_LETTERS), *([f"[{unit}]"] if unit else [])])
+        lines = max(2, int(CAPTION_HEIGHT * size_of(ax)[1] / (1.2 * points())))
+        short = shortened(name, lines * CAPTION_LETTERS)
+        parts = textwrap.wrap(short, CAPTION_LETTERS)
+        text = "\n".join([*parts, *([f"[{unit}]"] if unit else [])])
     ax.set_ylabel(
-        text, color=look.ink, fontsize=look.label, rotation=0, ha="right", va="center",
-        linespacing=look.spacing, parse_math=False,
+        text, color=INK, fontsize=points(), rotation=0, ha="right", va="center",
+        linespacing=1.2, parse_math=False,
     )  # fmt: skip
 
 
-def name_curves(ax: Axes, title: str, entries: Sequence[Entry], look: Style) -> None:
+def name_curves(ax: Axes, title: str, entries: Sequence[Entry]) -> None:
     """Write a title above the first panel, and a legend between them."""
     room = size_of(ax)[0]
     above = 0.0
     if entries:
         widest = max(len(entry.name) for entry in entries)
-        handle = 3.2 if look.greys else 2.0
-        each = look.small * (handle + 0.5 + 1.2 + LETTER_WIDTH * widest)
+        each = points(SMALL) * (3.7 + LETTER_WIDTH * widest)
         cols = max(1, min(len(entries), int(room / each)))
         lines = ceil(len(entries) / cols)
         place = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0)}
-        add_legend(ax, entries, look, ncols=ceil(len(entries) / lines), **place)
-        above = lines * look.small * 1.5
-    if look.title:
-        letters = max(20, letters_in(room, look.title))
-        ax.set_title(
-            textwrap.fill(title, letters, max_lines=2, placeholder=" …"), loc="left",
-            fontsize=look.title, color=look.ink, pad=6 * look.stroke**0.5 + above, parse_math=False,
-        )  # fmt: skip
+        add_legend(ax, entries, ncols=ceil(len(entries) / lines), **place)
+        above = lines * points(SMALL) * 1.5
+    letters = max(20, letters_in(room, points(TITLE)))
+    ax.set_title(
+        textwrap.fill(title, letters, max_lines=2, placeholder=" …"), loc="left",
+        fontsize=points(TITLE), color=INK, pad=6 + above, parse_math=False,
+    )  # fmt: skip
 
 
 def curve(
-    ax: Axes, time: Float, values: Float, entry: Entry, *, held: str = "", many: int = 1,
+    ax: Axes, time: Float, values: Float, entry: Entry, held: str = "", *, many: int = 1,
     wraps: bool = False, level: float = 3.0,
 ) -> None:  # fmt: skip
     """Draw values (T,) over time, with gaps for nan and inf; a value between two gaps is a dot.
@@ -154,8 +150,7 @@ def curve(
     many: the number of curves in the panel. A long curve is thinned to its extremes. wraps: whether
     the values are angles, so that no line joins pi and -pi.
     """
-    blocks = int(np.clip(MAX_VERTICES / 5 / many, MIN_BLOCKS, MAX_BLOCKS))
-    kept = thinned(values, blocks)
+    kept = thinned(values, int(np.clip(VERTICES / many, 150, 5000)) // 5)
     time, values = time[kept], values[kept]
     if wraps:
         jumps = np.flatnonzero(np.abs(np.diff(values)) > np.pi) + 1
@@ -199,26 +194,26 @@ def set_span(ax: Axes, low: float, high: float) -> None:
     ax.set_ylim(low - margin, high + margin)
 
 
-def color_bar(ax: Axes, image: ScalarMappable, text: str, look: Style) -> None:
+def color_bar(ax: Axes, image: ScalarMappable, text: str) -> None:
     """Add a colour bar at the right side of axes, without changing their size."""
     bar = ax.figure.colorbar(image, cax=ax.inset_axes((1.012, 0.0, 0.014, 1.0)))
     bar.outline.set_visible(False)
-    style_ticks(bar.ax, look)
+    style_ticks(bar.ax)
     bar.ax.tick_params(pad=2)
-    bar.set_label(text, color=look.ink, fontsize=look.small, parse_math=False)
+    bar.set_label(text, color=INK, fontsize=points(SMALL), parse_math=False)
 
 
-def say(ax: Axes, text: str, look: Style) -> None:
+def say(ax: Axes, text: str) -> None:
     """Write the reason why axes are empty in their middle."""
     ax.text(
         0.5, 0.5, text, transform=ax.transAxes, ha="center", va="center", wrap=True,
-        fontsize=look.label, color=look.muted, parse_math=False,
+        fontsize=points(), color=MUTED, parse_math=False,
     )  # fmt: skip
 
 
-def width_of(many: int, look: Style, few: int = 8) -> float:
+def width_of(many: int, few: int = 8) -> float:
     """Return the width of one of `many` curves, points."""
-    return 1.5 * look.stroke if many <= few else 0.7 * look.stroke**0.5
+    return 1.5 if many <= few else 0.7
 
 
 def letters_in(length: float, height: float) -> int:
@@ -232,16 +227,14 @@ def size_of(ax: Axes) -> tuple[float, float]:
     return box.width * points, box.height * points
 
 
-def spans(begin: Float, end: Float, least: float) -> tuple[Float, Float]:
-    """Return intervals of at least the length `least`, with gaps shorter than that closed.
+def shortened(text: str, letters: int) -> str:
+    """Return a text on one line, without its middle if it has more letters than this.
 
-    begin, end: (k,), sorted by `begin`.
-
-    >>> [each.tolist() for each in spans(np.array([0.0, 1.05, 5]), np.array([1, 2, 5]), 0.1)]
-    [[0.0, 5.0], [2.0, 5.1]]
+    >>> shortened("laws/group_a/pursuit.py", 16)
+    'laws/g…ursuit.py'
     """
-    end = np.maximum.accumulate(np.maximum(end, begin + least))
-    apart = np.ones(len(begin), dtype=bool)
-    apart[1:] = begin[1:] - end[:-1] > least
-    last = np.append(apart[1:], np.ones(min(1, len(begin)), dtype=bool))
-    return begin[apart], end[last]
+    text = " ".join(text.split())
+    if len(text) <= letters:
+        return text
+    start = (letters - 1) * 2 // 5
+    return f"{text[:start]}…{text[len(text) - (letters - 1 - start) :]}"

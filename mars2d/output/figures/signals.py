@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -16,19 +16,16 @@ from mars2d.output.figures.figure import LEGEND_LIMIT
 from mars2d.output.figures.legend import BESIDE, Entry, add_legend, plain_name
 from mars2d.output.figures.panels import (
     caption,
-    color_bar,
     curve,
     name_curves,
     name_rows,
     panels,
     say,
     set_span,
-    spans,
     width_of,
 )
-from mars2d.output.figures.style import Style, style_of
-from mars2d.output.signals import MIN_IMAGE_NUMBERS, Signal, chosen_robots, signals, without_nothing
-from mars2d.record.interventions import Change, Place
+from mars2d.output.figures.style import INK, curve_color, robot_curve
+from mars2d.output.signals import Signal, chosen_robots, signals, without_nothing
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -42,11 +39,8 @@ DEFAULT = ("x", "y", "theta", "command")
 LEAST_SPANS = {"effort": (0.0, 1.0), "speed": (0.0, 0.0), "clearance": (0.0, 0.05)}
 """The values that the axis of a column has at least; bodies at rest overlap slightly."""
 
-MAX_MARKS = 100
-"""The most interventions that are marked."""
-
-MAX_IMAGE_COLUMNS = 1500
-"""The most columns of pixels in an image."""
+ROWS = 16
+"""The most bars, one below the other, that have names."""
 
 
 def plot_signals(
@@ -57,7 +51,6 @@ def plot_signals(
     *,
     start: float | None = None,
     end: float | None = None,
-    style: str = "screen",
 ) -> list[Axes]:
     """Draw columns of a record over time, one panel each, and return the axes.
 
@@ -70,13 +63,10 @@ def plot_signals(
     what has made it, "kinetic" of each body, "momentum" of all, "momentum.each" of each. By default
     x, y, theta and the command. robots: those wanted, by name or index; None: all. axes: one for
     each panel; by default those of a new figure. start, end: seconds, the part of the run that is
-    drawn; by default all of it. style: as in `Record.plot`.
+    drawn; by default all of it.
 
-    A scan, for example of a laser, is an image of a robot's readings over time and bearing; if it
-    has more rows than the page has pixels, each pixel shows the nearest distance. Flags are bars
-    where they are True. nan and inf are gaps. A dotted line marks each row at which a robot was
-    placed by hand or the scenario was changed. Long columns are thinned to their extremes, so that
-    no peak is lost.
+    Flags are bars where they are True. nan and inf are gaps. Of readings of many numbers, such as
+    scans, parts can be drawn.
 
     Raises InputError for a record without rows, and for unknown columns, robots and times.
     """
@@ -89,7 +79,7 @@ def plot_signals(
     if robots is not None and all(body >= team for body in bodies):
         raise InputError("robots: all columns that were chosen are of props")
     order = chosen_robots(record, robots)
-    return draw_signals(record, found, axes, rows=rows, order=order, style=style)
+    return draw_signals(record, found, axes, rows=rows, order=order)
 
 
 def draw_signals(
@@ -99,32 +89,27 @@ def draw_signals(
     *,
     rows: slice = slice(None),
     order: Sequence[int] | None = None,
-    style: str = "screen",
 ) -> list[Axes]:
     """Draw signals of some rows of a record over time, and return the axes, as `plot_signals` does.
 
     order: robots, as the legend has them; by default that of the scenario. Raises InputError for a
     record without rows.
     """
-    look = style_of(style)
     check_rows(record)
     robots = chosen_robots(record, order)
-    shown = [part for signal in found for part in _by_robot(signal)]
-    if len(shown) > PANEL_LIMIT // 4:
+    if len(found) > PANEL_LIMIT // 4:
         raise InputError(
-            f"columns: they need {len(shown)} panels, and a figure has at most {PANEL_LIMIT // 4}: "
+            f"columns: they need {len(found)} panels, and a figure has at most {PANEL_LIMIT // 4}: "
             "choose some columns, or some robots"
         )
-    with look.fonts():
-        own = axes is None
-        axes = panels(record, axes, [signal.name for signal in shown], look, rows=rows)
-        for ax, signal in zip(axes, shown, strict=True):
-            _draw(ax, record, rows, signal, look)
-        entries = _entries(record, robots, shown, look) + _mark(axes, record, rows, look)
-        name_curves(axes[0], record.scenario.title, entries, look)
-        if own:
-            axes[0].figure.align_ylabels(axes)
-        return axes
+    own = axes is None
+    axes = panels(record, axes, [signal.name for signal in found], rows=rows)
+    for ax, signal in zip(axes, found, strict=True):
+        _draw(ax, record, rows, signal)
+    name_curves(axes[0], record.scenario.title, _entries(record, robots, found))
+    if own:
+        axes[0].figure.align_ylabels(axes)
+    return axes
 
 
 def _rows(record: Rows, start: float | None, end: float | None) -> slice:
@@ -142,168 +127,78 @@ def _rows(record: Rows, start: float | None, end: float | None) -> slice:
     return slice(int(low), int(high))
 
 
-def _by_robot(signal: Signal) -> Iterator[Signal]:
-    """Yield a signal for each panel: an image has one for each robot."""
-    if signal.values.ndim == 2 or not _is_image(signal):
-        yield signal
-        return
-    for k, robot in enumerate(signal.bodies):
-        yield replace(signal, values=signal.values[:, k : k + 1], bodies=(robot,))
-
-
-def _is_image(signal: Signal) -> bool:
-    several = signal.values.ndim == 3 and signal.values.shape[2] >= MIN_IMAGE_NUMBERS
-    return signal.values.ndim == 4 or (several and signal.values.dtype != np.bool_)
-
-
-def _draw(ax: Axes, record: Rows, rows: slice, signal: Signal, look: Style) -> None:
+def _draw(ax: Axes, record: Rows, rows: slice, signal: Signal) -> None:
     times = record.time[rows]
-    if signal.values.ndim > 2 and _is_image(signal):
-        _image(ax, record, times, signal, look)
-        return
     signal = without_nothing(signal)
     values = signal.values.reshape(len(times), -1)
     each = values.shape[1] // max(1, len(signal.bodies))
     if values.dtype == np.bool_:
-        _flags(ax, record, times, signal, values, look)
+        _flags(ax, record, times, signal, values)
         return
-    caption(ax, signal.name, signal.unit, look)
+    caption(ax, signal.name, signal.unit)
     many = values.shape[1]
-    entries = _own_entries(signal, look)
-    add_legend(ax, entries, look, **BESIDE)
-    entries = entries or [_entry(record, signal.bodies[k // each], look, many) for k in range(many)]
+    entries = _own_entries(signal)
+    add_legend(ax, entries, **BESIDE)
+    entries = entries or [_entry(record, signal.bodies[k // each], many) for k in range(many)]
     for k, entry in enumerate(entries):
         level = 3.0 if entry.dash == "-" else 3.1
         curve(
-            ax, times, values[:, k], entry, held=signal.held, many=many, wraps=signal.wraps,
-            level=level,
-        )  # fmt: skip
+            ax, times, values[:, k], entry, signal.held, many=many, wraps=signal.wraps, level=level
+        )
     finite = values[np.isfinite(values)]
     if not len(finite):
-        say(ax, "nothing was measured", look)
+        say(ax, "nothing was measured")
     low, high = LEAST_SPANS.get(signal.name.split(".")[-1], (np.inf, -np.inf))
     set_span(ax, min(low, finite.min(initial=np.inf)), max(high, finite.max(initial=-np.inf)))
 
 
-def _entry(record: Rows, body: int, look: Style, many: int) -> Entry:
+def _entry(record: Rows, body: int, many: int) -> Entry:
     """Return the style of the curve of a robot or a prop, and its name in a legend."""
-    width = width_of(many, look, LEGEND_LIMIT)
+    width = width_of(many, LEGEND_LIMIT)
     scenario = record.scenario
     robots = len(scenario.robots)
     name = plain_name(scenario.bodies[body].name)
     if body < robots:
-        color, dash = look.robot_curve(scenario, body)
+        color, dash = robot_curve(scenario, body)
         return Entry(name, color, dash if many <= LEGEND_LIMIT else "-", width)
-    return Entry(name, *look.curve(body), width)
+    return Entry(name, curve_color(body), "-", width)
 
 
-def _own_entries(signal: Signal, look: Style) -> list[Entry]:
+def _own_entries(signal: Signal) -> list[Entry]:
     """Return the styles and names of the curves of a signal that belong to no body."""
-    width = width_of(len(signal.curves), look, LEGEND_LIMIT)
-    looks = [look.curve(k) for k in range(len(signal.curves))]
-    if not look.greys:  # dashes, so that curves that coincide can both be seen
-        colors = [look.ink, *(color for color, _ in looks)]
-        looks = [(color, "--" if k % 2 else "-") for k, color in enumerate(colors)]
-    return [Entry(name, *each, width) for name, each in zip(signal.curves, looks, strict=False)]
+    width = width_of(len(signal.curves), LEGEND_LIMIT)
+    colors = [INK, *(curve_color(k) for k in range(len(signal.curves)))]
+    # Dashes, so that curves that coincide can both be seen.
+    return [
+        Entry(name, colors[k], "--" if k % 2 else "-", width)
+        for k, name in enumerate(signal.curves)
+    ]
 
 
-def _entries(
-    record: Rows, robots: tuple[int, ...], shown: list[Signal], look: Style
-) -> list[Entry]:
+def _entries(record: Rows, robots: tuple[int, ...], shown: Sequence[Signal]) -> list[Entry]:
     """Return the legend of the bodies with curves, robots first, or none for too many."""
-    curves = [s for s in shown if s.values.dtype != np.bool_ and not _is_image(s)]
+    curves = [s for s in shown if s.values.dtype != np.bool_]
     drawn = {body for signal in curves for body in signal.bodies}
     order = [robot for robot in robots if robot in drawn]
     order += sorted(body for body in drawn if body >= len(record.scenario.robots))
-    return [_entry(record, b, look, 1) for b in order] if len(order) <= LEGEND_LIMIT else []
+    return [_entry(record, b, 1) for b in order] if len(order) <= LEGEND_LIMIT else []
 
 
-def _mark(axes: Sequence[Axes], record: Rows, rows: slice, look: Style) -> list[Entry]:
-    """Draw a line at each intervention by hand, and return its entry in the legend."""
-    kinds = (Place, Change)
-    moments = {each.row for each in record.interventions if isinstance(each, kinds)}
-    drawn = moments.intersection(range(len(record))[rows])
-    times = [float(record.time[row]) for row in sorted(drawn)][:MAX_MARKS]
-    if not times:
-        return []
-    entry = Entry("by hand", look.muted, ":", look.stroke)
-    for ax in axes:
-        for time in times:
-            ax.axvline(time, color=entry.color, linestyle=":", linewidth=entry.width, zorder=2.5)
-    return [entry]
-
-
-# -- flags and images -----------------------------------------------------------------------------
-
-
-def _flags(
-    ax: Axes, record: Rows, times: Float, signal: Signal, values: Float, look: Style
-) -> None:
+def _flags(ax: Axes, record: Rows, times: Float, signal: Signal, values: Float) -> None:
     """Draw bars where flags (T, rows) are True, one row each, the first on top."""
     count = values.shape[1]
     each = count // max(1, len(signal.bodies))
     step = record.scenario.sampling_time
-    least = 2 * (times[-1] - times[0]) / MAX_IMAGE_COLUMNS
     names = []
     for k in range(count):
         body = signal.bodies[k // each]
         names.append(record.scenario.bodies[body].name + (f" {k % each}" if each > 1 else ""))
         edges = np.diff(np.concatenate([[False], values[:, k], [False]]).astype(np.int8))
-        first, last = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1) - 1
-        begin, end = spans(times[first], times[last] + step, least)
-        color = look.colors(record.scenario)[body]
-        bars = list(zip(begin.tolist(), (end - begin).tolist(), strict=True))
+        first, after = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)
+        color = record.scenario.colors[body]
+        bars = list(zip(times[first].tolist(), (step * (after - first)).tolist(), strict=True))
         ax.broken_barh(bars, (count - 0.85 - k, 0.7), facecolor=color, linewidth=0, zorder=3)
-    caption(ax, signal.name, "", look)
-    name_rows(ax, [plain_name(n) for n in names] if count <= look.rows else [], count)
+    caption(ax, signal.name, "")
+    name_rows(ax, [plain_name(n) for n in names] if count <= ROWS else [], count)
     if not values.any():
-        say(ax, "never", look)
-
-
-def _image(ax: Axes, record: Rows, times: Float, signal: Signal, look: Style) -> None:
-    """Draw the readings (T, 1, beams) or (T, 1, pixels, 3) of a robot over time and bearing."""
-    import matplotlib as mpl
-    from matplotlib.image import AxesImage
-    from matplotlib.ticker import MultipleLocator
-
-    values = signal.values[:, 0]
-    size = -(-len(values) // MAX_IMAGE_COLUMNS)
-    starts = np.arange(0, len(values), size)
-    if signal.nearest and size > 1:
-        values = np.fmin.reduceat(values, starts, axis=0)
-    else:
-        values = values[starts]
-    time, step = float(times[0]), record.scenario.sampling_time
-    beams = values.shape[1]
-    low, high = 0.0, float(beams)
-    unit = ""
-    if signal.bearings is not None:
-        half = (signal.bearings[1] - signal.bearings[0]) / 2
-        low, high = float(signal.bearings[0] - half), float(signal.bearings[-1] + half)
-        unit = "°"
-        ax.yaxis.set_major_locator(MultipleLocator(90 if high - low > 200 else 30))
-    cmap = mpl.colormaps["gray" if look.greys else "viridis"].with_extremes(bad="white")
-    image = AxesImage(
-        ax, cmap=cmap, origin="lower", interpolation="nearest", zorder=1,
-        extent=(time, time + step * size * len(starts), low, high),
-    )  # fmt: skip
-    shown = values.swapaxes(0, 1)
-    if shown.ndim == 3:
-        shown = np.where(np.isfinite(shown), shown, 1.0)
-    image.set_data(np.ma.masked_invalid(shown))
-    ax.add_image(image)
-    image.set_clip_path(ax.patch)
-    ax.set_ylim(low, high)
-    ax.grid(visible=False)
-    name = plain_name(str(record.scenario.robots[signal.bodies[0]].name))
-    index = ", index" if beams > 1 and not unit else ""
-    caption(ax, f"{signal.name} of {name}{index}", unit, look)
-    if beams == 1:
-        ax.set_yticks([])
-    if shown.ndim == 2:
-        finite = shown[np.isfinite(shown)]
-        if not len(finite):
-            say(ax, "nothing was measured", look)
-            return
-        image.set_clim(min(0.0, finite.min()), finite.max())
-        color_bar(ax, image, f"[{signal.unit}]" if signal.unit else "", look)
+        say(ax, "never")

@@ -11,9 +11,9 @@ from mars2d.core.description import real, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.files import atomic_write
 from mars2d.output.figures.extent import check_rows
-from mars2d.output.films.encoding import ENCODERS, Encoding
 from mars2d.output.films.footage import Cut, shots
-from mars2d.output.films.mp4 import require_av
+from mars2d.output.films.gif import Gif
+from mars2d.output.films.mp4 import Mp4, require_av
 from mars2d.output.raster import require_pygame
 from mars2d.record.frame import Frame
 
@@ -22,7 +22,8 @@ if TYPE_CHECKING:
 
     from mars2d.record.rows import Rows
 
-SUFFIXES = tuple(ENCODERS)
+ENCODERS: dict[str, type[Gif | Mp4]] = {".gif": Gif, ".mp4": Mp4}
+"""By the endings of films."""
 
 MIN_SIZE, MAX_SIZE = (64, 64), (3840, 2160)
 """The limits of a film's size, pixels."""
@@ -153,10 +154,13 @@ def save_pictures(
     check_film(path, fps=fps)
     target, count = Path(path), 0
     with atomic_write(target) as file:
-        with Encoding(file, target.suffix.lower(), fps) as encoding:
+        encoder = ENCODERS[target.suffix.lower()](Path(file.name), fps)
+        try:
             for count, picture in enumerate(pictures, 1):
-                encoding.add(picture)
+                encoder.add(picture)
                 if progress is not None:
                     progress(count)
+        finally:
+            encoder.close()
         if count == 0:
             raise InputError(f"{target}: a film needs at least one frame")

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from mars2d.core.errors import InputError
-from mars2d.core.files import growing, writing
-from mars2d.output.films.encoding import Encoding
+from mars2d.core.files import writing
+from mars2d.output.films.film import ENCODERS
 from mars2d.output.films.mp4 import require_av
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ class Filming:
 
     Pass each picture that is shown to `take`, and call `stop` at the end. The film has the size of
     the first picture; others are scaled into it. If the program is killed, the film so far can be
-    played. Pictures are left out while several wait to be encoded.
+    played.
     """
 
     def __init__(self, path: Path, clock: Callable[[], float] = time.perf_counter) -> None:
@@ -41,47 +41,40 @@ class Filming:
         clock: returns seconds. Raises MissingExtraError for .mp4 without PyAV.
         """
         if path.suffix == ".mp4":
-            require_av(path)  # imports it as well, so that pictures need not wait
-        self.path = path
-        self.frames = 0
-        self._clock = clock
-        self._start: float | None = None
+            require_av(path)
+        self.path, self.frames = path, 0
+        self._clock, self._start = clock, clock()
         self._shown: pygame.Surface | None = None
-        self._file = growing(path, afresh=True).detach()  # without a buffer nothing is lost
-        self._encoding = Encoding(self._file, path.suffix, FPS)
+        with writing(path):
+            self._encoder = ENCODERS[path.suffix](path, FPS)
 
     @property
     def seconds(self) -> float:
         """The length of the film so far, seconds."""
         return self.frames / FPS
 
-    @property
-    def busy(self) -> bool:
-        """Whether pictures are left out now."""
-        return self._encoding.busy
-
     def take(self, picture: pygame.Surface) -> None:
         """Take the picture that is shown now. Raises InputError if the film can't be written."""
-        now = self._clock()
-        if self._start is None:
-            self._start = now
-        due = int((now - self._start) * FPS) + 1 - self.frames
+        if self._shown is None:
+            self._start = self._clock()
+        due = int((self._clock() - self._start) * FPS) + 1 - self.frames
+        if due < 1:
+            return
+        if due > MAX_STILL * FPS:
+            self._start += due / FPS - MAX_STILL
+            due = int(MAX_STILL * FPS)
         with writing(self.path):
-            if due < 1 or self.busy:
-                return
-            if due > MAX_STILL * FPS:
-                self._start += due / FPS - MAX_STILL
-                due = int(MAX_STILL * FPS)
-            if self._shown is not None and due > 1:
-                self._encoding.add(self._shown, due - 1)  # what was seen until then
+            if self._shown is not None:
+                for _ in range(due - 1):
+                    self._encoder.add(self._shown)  # what was seen until then
             self._shown = _fitted(picture, self._shown)
-            self._encoding.add(self._shown)
-            self.frames += due
+            self._encoder.add(self._shown)
+        self.frames += due
 
     def stop(self) -> Path:
         """End the film and return its path. Raises InputError if it could not be written."""
-        with writing(self.path), self._file, self._encoding:
-            pass
+        with writing(self.path):
+            self._encoder.close()
         if not self.frames:
             self.path.unlink(missing_ok=True)
             raise InputError(f"{self.path}: a film needs at least one picture")
@@ -89,20 +82,12 @@ class Filming:
 
 
 def _fitted(picture: pygame.Surface, film: pygame.Surface | None) -> pygame.Surface:
-    """Return a picture in the middle of a film's frame, as large as fits.
+    """Return a picture as a film's frame, whose sides are even; a larger or smaller one is scaled.
 
-    film: a frame of its size; None for the first one, which has the size of the picture, made even.
+    film: a frame of its size; None for the first one, which has the size of the picture.
     """
     import pygame
 
-    across, down = picture.get_size()
-    if film is None:
-        film = pygame.Surface((across + across % 2, down + down % 2), 0, 32)
-    width, height = film.get_size()
-    if max(abs(width - across), abs(height - down)) > 1:  # not only made even
-        scale = min(width / across, height / down)
-        size = max(round(scale * across), 1), max(round(scale * down), 1)
-        picture = pygame.transform.smoothscale(picture, size)
-    film.fill("black")
-    film.blit(picture, picture.get_rect(center=film.get_rect().center))
-    return film
+    wide, high = picture.get_size()
+    size = (wide + wide % 2, high + high % 2) if film is None else film.get_size()
+    return pygame.transform.smoothscale(picture, size)

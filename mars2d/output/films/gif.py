@@ -6,9 +6,9 @@ frames in memory until the end.
 
 from __future__ import annotations
 
-from io import RawIOBase
 from itertools import product
-from typing import TYPE_CHECKING, BinaryIO
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,14 +23,11 @@ Entries = NDArray[np.uint8]
 CLEAR = 255
 """The palette's entry for a pixel that stays as it was."""
 
-FEW = 26
-"""How many of the first picture's colours are in the palette, and half as many vivid ones."""
-
-TINTS = (0.8, 0.6, 0.4, 0.2)
-"""The shares of a vivid colour over white: of the edges of shapes, and of paths."""
+OWN = 64
+"""How many of the first picture's colours are in the palette; the rest is a coarse cube."""
 
 ALIKE = 8
-"""Of colours whose channels differ by less, only the first is in the palette."""
+"""Of colours whose channels differ by less, only the first is there, since Pillow mixes them up."""
 
 LONGEST = 655_350
 """How long a frame is seen at most, milliseconds."""
@@ -39,9 +36,10 @@ LONGEST = 655_350
 class Gif:
     """Writes pictures of one size as an animated GIF that repeats for ever."""
 
-    def __init__(self, file: BinaryIO | RawIOBase, fps: float) -> None:
-        """Begin; `file` stays open at the end."""
-        self._file, self._fps = file, fps
+    def __init__(self, path: Path, fps: float) -> None:
+        """Begin."""
+        self._file = path.open("wb", buffering=0)  # without a buffer nothing is lost
+        self._fps = fps
         self._count = self._written = 0  # frames; hundredths of a second
         self._shown: Entries | None = None
         self._pending: tuple[Entries, tuple[int, int]] | None = None
@@ -67,14 +65,15 @@ class Gif:
 
     def close(self) -> None:
         """Write the last frame and the end."""
-        self._write_pending()
-        self._file.write(b";")
+        with self._file:
+            self._write_pending()
+            self._file.write(b";")
 
     def _begin(self, image: Image) -> None:
         """Write the size, the palette, and that the film repeats."""
         from PIL.Image import new
 
-        colors = _palette(np.asarray(image)).tobytes()
+        colors = _palette(image).tobytes()
         self._palette = new("P", (1, 1))
         self._palette.putpalette(colors)
         sides = b"".join(side.to_bytes(2, "little") for side in image.size)
@@ -100,22 +99,15 @@ class Gif:
         self._pending, self._written = None, now
 
 
-def _palette(pixels: Entries) -> Entries:
-    """Return a palette (k, 3), k <= 255, for a first picture (rows, columns, 3).
-
-    It has its colours, those of the banner at the end, tints, and a coarse cube.
-    """
+def _palette(image: Image) -> Entries:
+    """Return a palette (k, 3), k <= 255, for a first picture: its colours, and a coarse cube."""
     from mars2d.output.raster.theme import PRINTED
 
-    codes, counts = np.unique(pixels @ (1 << 16, 1 << 8, 1), return_counts=True)
-    order = np.argsort(-counts, kind="stable")
-    seen = np.column_stack([codes >> 16, codes >> 8 & 255, codes & 255])[order]
-    vivid = seen[(counts[order] >= 4) & (np.ptp(seen, axis=1) > 60)][: FEW // 2]
-    banners = [list(bytes.fromhex(color[1:])) for color in (PRINTED.over, PRINTED.failed)]
-    vivid = np.concatenate([banners, vivid])
-    tints = [255 + np.rint(share * (vivid - 255)).astype(int) for share in TINTS]
-    cube = np.array(list(product((0, 64, 128, 191, 255), repeat=3)))
-    wanted = np.concatenate([seen[:FEW], vivid, *tints, cube])
+    banners = [bytes.fromhex(color[1:]) for color in (PRINTED.over, PRINTED.failed)]
+    colors: Any = image.getcolors(image.width * image.height)
+    seen = sorted(colors, reverse=True)
+    cube = product((0, 64, 128, 191, 255), repeat=3)
+    wanted = np.array([*(color for _, color in seen[:OWN]), *map(tuple, banners), *cube])
     kept = wanted[:1]
     for color in wanted[1:]:
         if np.abs(kept - color).max(axis=1).min() >= ALIKE:

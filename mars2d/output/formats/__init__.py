@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Iterator
 from contextlib import suppress
 from importlib import import_module
 from itertools import count
@@ -20,7 +19,7 @@ if TYPE_CHECKING:
     from mars2d.output.formats.mcap import Log
 
 __all__ = [
-    "EXPORTS",
+    "EXPORT",
     "FORMATS",
     "SUFFIXES",
     "is_streamed",
@@ -39,7 +38,6 @@ FORMATS = {
     ".csv": "table",
     ".mcap": "mcap",
     ".mat": "mat",
-    ".nc": "dataset",
 }
 """The modules of this folder by the endings of files.
 
@@ -47,14 +45,11 @@ Each has ``write(record, path)``; if the format is read back, also ``read(path, 
 needs an extra, also ``require(path)``, which raises MissingExtraError where a library is missing.
 """
 
-EXPORTS = (".mat", ".nc")
-"""The endings of files for other programs, which MARS2D does not read."""
+EXPORT = ".mat"
+"""The ending of files for other programs, which MARS2D does not read."""
 
-SUFFIXES = tuple(suffix for suffix in FORMATS if suffix not in EXPORTS)
+SUFFIXES = tuple(suffix for suffix in FORMATS if suffix != EXPORT)
 """The endings of files that are read back."""
-
-MAX_STEM = 50
-"""How many letters of a name are kept in the new name of a record that is kept elsewhere."""
 
 
 def save(record: Rows, path: str | Path) -> Path:
@@ -64,7 +59,7 @@ def save(record: Rows, path: str | Path) -> Path:
         _module(target).write(record, target)
     except Mars2dError:
         raise
-    except Exception as error:  # of scipy or xarray, such as for more than 2 GB
+    except Exception as error:  # of scipy, such as for more than 2 GB
         raise InputError(
             f"{target}: can't be written: {one_line(error)}; save it as .npz"
         ) from error
@@ -80,7 +75,7 @@ def load(path: str | Path, largest: float) -> Rows:
             raise InputError(f"{source}: not a file; expected a record, as run.npz")
         file_beside(source, None, "a record", SUFFIXES)
     module = _module(source)
-    if source.suffix.lower() in EXPORTS:
+    if source.suffix.lower() == EXPORT:
         raise InputError(
             f"{source}: an export for other programs; expected a record: {' or '.join(SUFFIXES)}"
         )
@@ -112,7 +107,7 @@ def require(path: Path) -> None:
 
 
 def _path(path: str | Path) -> Path:
-    if not isinstance(path, (str, Path)) or "\0" in str(path):
+    if not isinstance(path, (str, Path)):
         raise InputError(f"path = {shown(path)}: expected the name of a file, such as 'run.npz'")
     return Path(path)
 
@@ -155,27 +150,17 @@ def save_branches(record: Rows, beside: Path) -> list[Path]:
 
 
 def rescued(record: Rows, path: Path) -> Path | None:
-    """Save a record under a new name where there is room, and return that name; None if nowhere.
+    """Save a record under a new name in the folder for temporary files; None if there is no room.
 
     path: where it should have been saved. The new file is an .npz, which can hold every record.
     """
-    for folder in _folders():
-        with suppress(OSError, InputError):
-            file, name = tempfile.mkstemp(".npz", f"{path.stem[:MAX_STEM]}_", folder)
-            os.close(file)
-            place = Path(name)
-            try:
-                return save(record, place)
-            except BaseException:
-                place.unlink(missing_ok=True)
-                raise
+    with suppress(OSError, InputError):
+        file, name = tempfile.mkstemp(".npz", f"{path.stem[:50]}_")
+        os.close(file)
+        place = Path(name)
+        try:
+            return save(record, place)
+        except BaseException:
+            place.unlink(missing_ok=True)
+            raise
     return None
-
-
-def _folders() -> Iterator[Path]:
-    """Yield folders that may have room: for temporary files, the home folder, in memory."""
-    with suppress(OSError):  # no folder for temporary files can be written
-        yield Path(tempfile.gettempdir())
-    with suppress(RuntimeError):  # the user has no home folder
-        yield Path.home()
-    yield Path("/dev/shm")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -94,30 +94,20 @@ def _units(quantities: Iterable[Quantity]) -> tuple[str, ...]:
 MAX_NAME = 63
 """The most characters in the name of a field in Matlab."""
 
-KEYWORDS = {
-    "case", "catch", "end", "function", "otherwise", "parfor", "persistent", "spmd", "switch",
-}  # fmt: skip
-"""Reserved words of Matlab that are names in Python, so that a sensor may be called so."""
-
 
 def plain_names(names: Iterable[str]) -> dict[str, str]:
     """Map each name to one that Matlab accepts: ASCII, a letter first, at most 63 characters.
 
-    Where two would be equal, the later one ends in a number.
+    Where two would be equal, the later one ends in its number.
 
-    >>> plain_names(["scan", "größe", "gr_ße", "end"])
-    {'scan': 'scan', 'größe': 'gr__e', 'gr_ße': 'gr__e_2', 'end': 'xend'}
+    >>> plain_names(["scan", "größe", "gr_ße"])
+    {'scan': 'scan', 'größe': 'gr__e', 'gr_ße': 'gr__e_2'}
     """
     found: dict[str, str] = {}
-    for name in names:
+    for k, name in enumerate(names):
         plain = re.sub("[^A-Za-z0-9_]", "_", name)
-        if not plain[:1].isalpha() or plain in KEYWORDS:
-            plain = f"x{plain}"
-        free, k = plain[:MAX_NAME], 1
-        while free in found.values():
-            k += 1
-            free = f"{plain[: MAX_NAME - len(f'_{k}')]}_{k}"
-        found[name] = free
+        plain = (plain if plain[:1].isalpha() else f"x{plain}")[:MAX_NAME]
+        found[name] = f"{plain[: MAX_NAME - 4]}_{k}" if plain in found.values() else plain
     return found
 
 
@@ -173,15 +163,4 @@ def parts_of(record: Rows) -> dict[str, list[Part]]:
             taken.add(name)
             carriers = tuple(record.sensor_robots[sensor])
             found[name] = [Part(f"sensor:{sensor}", (every, *place), carriers)]
-    return found
-
-
-def units_of(record: Rows, parts: Mapping[str, list[Part]]) -> dict[str, str]:
-    """Return the units of the table's columns, of those that have one."""
-    found = {}
-    for column, ((name, at, _), *_others) in parts.items():
-        units = units_in(record, name)
-        if units:  # one for all values, or one for each along an axis
-            of_sensor = name.startswith("sensor:")
-            found[column] = units[at[-1 if of_sensor else 0] if len(units) > 1 else 0]
     return found

@@ -1,22 +1,18 @@
-"""Datasets of xarray: all columns of a record, with named axes and units; ``.nc`` files of them."""
+"""Datasets of xarray: all columns of a record, with named axes and units."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from mars2d.core.extras import extra
-from mars2d.core.files import atomic_write
 from mars2d.output.formats import header as headers
 from mars2d.output.formats.columns import (
     ABOUT,
     CONTACT_UNITS,
     MESSAGE_UNITS,
     POSE_UNITS,
-    plain_names,
     units_in,
 )
 from mars2d.record.energy import WORK
@@ -38,14 +34,10 @@ def to_xarray(record: Rows) -> Dataset:
     time, work_of. ``sensor_NAME``: time, robot, and ``NAME_0`` and so on for
     the axes of a reading; ``NAME_robot`` in place of robot where not all carry it.
     ``contact_FIELD``: contact. ``message_FIELD``: message; ``contents``: content, the texts. The
-    attributes have title, seed, digest, why it ended and, as JSON, the rest. Raises
+    attributes have title, seed, digest, why it ended and, as JSON, the rest. What has no values is
+    left out, since a length of 0 means in netCDF 3 that a dimension can grow. Raises
     MissingExtraError without xarray.
     """
-    return named_dataset(record, {name: name for name in record.sensors})
-
-
-def named_dataset(record: Rows, sensors: Mapping[str, str]) -> Dataset:
-    """Return the dataset of `to_xarray`, with other names for sensors."""
     with extra("data", "datasets need xarray"):
         import xarray as xr
     scenario = record.scenario
@@ -59,13 +51,15 @@ def named_dataset(record: Rows, sensors: Mapping[str, str]) -> Dataset:
     for name, robots in record.sensor_robots.items():
         if len(robots) < len(names):
             carriers = [names[robot] for robot in robots]
-            places[f"{sensors[name]}_robot"] = np.array(carriers, dtype=object)
+            places[f"{name}_robot"] = np.array(carriers, dtype=object)
     variables: dict[str, Any] = {
         variable: (dimensions, column, {"long_name": long_name} | ({"units": unit} if unit else {}))
         for name, column in headers.numbers_of(record).items()
-        for variable, dimensions, unit, long_name in [_told(record, name, sensors)]
+        if column.size
+        for variable, dimensions, unit, long_name in [_told(record, name)]
     }
-    places["time"] = variables.pop("time")
+    places = {name: place for name, place in places.items() if len(place)}
+    places["time"] = variables.pop("time", [])
     if record.contents:
         texts = np.array(record.contents, dtype=object)
         about = {"long_name": "what was sent, as JSON; message_content counts it from 0"}
@@ -81,41 +75,18 @@ def named_dataset(record: Rows, sensors: Mapping[str, str]) -> Dataset:
     return xr.Dataset(variables, coords=places, attrs=about)
 
 
-def require(path: Path) -> None:
-    """Raise MissingExtraError where xarray isn't installed."""
-    with extra("data", f"{path}: netCDF needs xarray", ".npz, .mat and .csv need nothing"):
-        import xarray  # noqa: F401
-
-
-def write(record: Rows, path: Path) -> None:
-    """Write the dataset as netCDF 3, which ncdump, R, Matlab and Panoply open.
-
-    Names of sensors become ASCII. Variables without values are left out: a length of 0 means in
-    netCDF 3 that a dimension can grow. Raises MissingExtraError without xarray.
-    """
-    require(path)
-    dataset = named_dataset(record, plain_names(record.sensors))
-    empty = [name for name, each in dataset.variables.items() if not each.size]
-    content = dataset.drop_vars(empty).to_netcdf(engine="scipy", format="NETCDF3_64BIT")
-    with atomic_write(path) as file:
-        file.write(content)
-
-
-def _told(
-    record: Rows, column: str, sensors: Mapping[str, str]
-) -> tuple[str, tuple[str, ...], str, str]:
+def _told(record: Rows, column: str) -> tuple[str, tuple[str, ...], str, str]:
     """Return the name of a column's variable, its dimensions, its unit and its long name."""
     if column in ABOUT:
         units = ", ".join(units_in(record, column))
         return column, ("time", *ABOUT[column].axes), units, ABOUT[column].meaning
     family, _, name = column.partition(":")
     if family == "sensor":
-        title = sensors[name]
         all_carry = len(record.sensor_robots[name]) == len(record.scenario.robots)
-        others = (f"{title}_{k}" for k in range(record.sensors[name].ndim - 2))
-        dimensions = ("time", "robot" if all_carry else f"{title}_robot", *others)
+        others = (f"{name}_{k}" for k in range(record.sensors[name].ndim - 2))
+        dimensions = ("time", "robot" if all_carry else f"{name}_robot", *others)
         units = ", ".join(units_in(record, column))
-        return f"sensor_{title}", dimensions, units, f"sensor {name}".replace("_", " ")
+        return f"sensor_{name}", dimensions, units, f"sensor {name}".replace("_", " ")
     long_name = f"{family} {name}".replace("_", " ")
     if column == "message:status":
         long_name = ", ".join(f"{k} {word}" for k, word in enumerate(STATUS))

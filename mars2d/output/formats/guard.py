@@ -26,7 +26,7 @@ def reading(path: Path) -> Iterator[None]:
         raise InputError(f"{path}: there is not enough memory to read it") from error
     except OSError as error:
         raise InputError(f"{path}: can't be read: {error.strerror or error}") from error
-    except Exception as error:  # zip, zlib, numpy, scipy, json and protobuf raise their own
+    except Exception as error:  # zip, zlib, numpy, json and mcap raise their own
         raise InputError(f"{path}: not a record of MARS2D, or damaged") from error
 
 
@@ -43,20 +43,7 @@ def check_size(path: Path, size: int, largest: int) -> None:
         enough = 10 ** max(0, len(str(size)) - 2)
         enough *= -(-size // enough)  # rounded up to two digits
         raise InputError(
-            f"{path}: holds, or claims to hold, {in_bytes(size)} of data, more than the "
-            f"{in_bytes(largest)} that are read unless asked for: "
+            f"{path}: holds, or claims to hold, {size:,} bytes of data, more than the "
+            f"{largest:,} bytes that are read unless asked for: "
             f'mars2d.load("{path.name}", largest={enough:.2g})'
         )
-
-
-def in_bytes(size: float) -> str:
-    """Return a number of bytes with a unit, for example ``3.2 MB``.
-
-    >>> in_bytes(3_210_000)
-    '3.2 MB'
-    """
-    for unit in ("bytes", "kB", "MB", "GB", "TB"):
-        if size < 1000 or unit == "TB":
-            break
-        size /= 1000
-    return f"{size:,.0f} {unit}" if unit == "bytes" or size >= 100 else f"{size:.2g} {unit}"

@@ -50,8 +50,7 @@ def _looks(record: Rows) -> dict[str, Any]:
     """Return the fields of Table 1 of the paper except the history, and the names of all bodies."""
     scenario, robots = record.scenario, record.scenario.robots
     drives = [robot.drive for robot in robots]
-    animation, workspace = scenario.animation, scenario.workspace
-    nothing, fields = float("nan"), plain_names(record.sensors)
+    workspace, nothing, fields = scenario.workspace, float("nan"), plain_names(record.sensors)
     return {
         "Robots": float(len(robots)),
         "Initial_pose": scenario.initial_pose,
@@ -78,17 +77,6 @@ def _looks(record: Rows) -> dict[str, Any]:
             "Distance_center_barycenter": np.array([[robot.center_offset for robot in robots]]),
         },
         "Prop": {"Name": _cell(str(prop.name) for prop in scenario.props)},
-        "Animation": {
-            "Title": _text(scenario.title),
-            "Grid": animation.grid,
-            "Show_initial_pose": animation.show_initial_pose,
-            "Show_real_shape": animation.show_real_shape,
-            "Wake": animation.wake,
-            "Wake_style": animation.wake_style,
-            "Playback_speed": animation.playback_speed,
-            "Base_colors": _cell(animation.base_colors),
-            "Colors": _cell(scenario.colors),
-        },
         "Seed": np.int64(record.seed),
         "Sensors": {},
         "Sensor_robots": {  # counted from 1

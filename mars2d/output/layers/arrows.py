@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.scene import Anchor, Line, Scene
+from mars2d.core.scene import Anchor, Scene
 from mars2d.scenario.scenario import Scenario
 
 Float = NDArray[np.float64]
@@ -64,14 +64,6 @@ def _cut(scene: Scene, start: Float, way: Float) -> None:
     for share in (0.42, 0.5):
         middle = start + share * way
         scene.line([middle - slant, middle + slant], stroke=EDGE, width=CUT_WIDTH)
-
-
-def has_cut(scene: Scene) -> bool:
-    """Return whether an arrow of a layer is shortened."""
-    return any(
-        isinstance(shape, Line) and (shape.stroke, shape.width) == (EDGE, CUT_WIDTH)
-        for shape in scene.shapes
-    )
 
 
 def beside(scene: Scene, point: Float, way: Float, words: str, color: str) -> None:

@@ -224,9 +224,26 @@ def draw_name(scene: Scene, scenario: Scenario, body: int, pose: Float) -> None:
     """Write the name of a body above it, at a pose (3,)."""
     bodies = scenario.bodies
     crowd, name = len(bodies) > MANY_BODIES, str(bodies[body].name)
-    middle, radius = bounding_circle(bodies[body].shape, pose)
     if crowd and name == f"robot{body}":
         name = str(body)
-    x, y = middle.tolist()
+    x, y, _ = pose.tolist()
     size = CROWD_SIZE if crowd else NAME_SIZE
-    scene.shapes.append(Text((x, y + radius), name, INK, size, "above", NAME_HALO))
+    above = y + bodies[body].shape.reach
+    scene.shapes.append(Text((x, above), name, INK, size, "above", NAME_HALO))
+
+
+SMALL = 0.012
+"""A robot is small if its diameter is less than this share of the workspace's longer side."""
+
+RING = 9.0
+"""The radius of a ring, points. It lies below its robot, so that it is hidden where one is near."""
+
+
+def place_ring(scene: Scene, scenario: Scenario, body: int, pose: Float) -> None:
+    """Draw a ring at a pose (3,), if a body is a robot that would hardly be seen without."""
+    if body < len(scenario.robots) and scenario.animation.show_real_shape:
+        xmin, xmax, ymin, ymax = scenario.bounds
+        color = scenario.colors[body]
+        if 2 * scenario.robots[body].radius < SMALL * max(xmax - xmin, ymax - ymin):
+            fill, stroke = faded(color, 0.2), faded(color, 0.8)
+            scene.circle(pose[:2], 0.0, fill=fill, stroke=stroke, width=1.3, pixels=RING)

@@ -17,12 +17,11 @@ from mars2d.core.scene import (
     Shape,
     faded,
 )
-from mars2d.core.usercode import called
 from mars2d.output.layers.arrows import Ruler, Sign, arrow
 from mars2d.output.layers.forces import SLIP, SLIP_EDGE, force_scale
 from mars2d.output.layers.impulses import FRICTION, impulse_scale
 from mars2d.output.layers.messages import LOST_LINK
-from mars2d.output.layers.velocities import VELOCITY, speed_scale
+from mars2d.output.layers.velocities import speed_scale
 from mars2d.scenario.scenario import Scenario
 
 
@@ -42,28 +41,13 @@ def legends(scenario: Scenario) -> list[Legend]:
     found = [
         Legend("forces", (newtons.limit, SLIPS), newtons),
         Legend("impulses", (blow.limit, _friction()), blow),
-        Legend("velocities", (paces.limit, _turning()), paces),
+        Legend("velocities", (paces.limit,), paces),
     ]
-    if signs := _of_sensors(scenario):
-        found.append(Legend("sensors", signs))
     if any(addon.carries_messages for addon in scenario.addons):
         found.append(Legend("messages", (MESSAGE, LOST)))
     if any(type(addon).theory is not Addon.theory for addon in scenario.addons):
         found.append(Legend("theory", (PREDICTED,)))
     return found
-
-
-def _of_sensors(scenario: Scenario) -> tuple[Sign, ...]:
-    """Return a sign for each kind of sensors that has one."""
-    found: dict[str, Sign] = {}
-    for robot, color in zip(scenario.robots, scenario.colors, strict=True):
-        for sensor in robot.sensors:
-            scene = Scene()
-            with called(f"sensor {sensor.key!r}", sensor.sign):
-                meaning = sensor.sign(scene, color)
-            if meaning:
-                found.setdefault(meaning, Sign(scene, 28.0, meaning))
-    return tuple(found.values())
 
 
 def _friction() -> Sign:
@@ -72,15 +56,6 @@ def _friction() -> Sign:
     scene.sector((*apex, 0.0), 22.0, 0.9, fill=faded(FRICTION, 0.16), stroke=color, width=1.2)
     arrow(scene, apex + np.array([15.0, -5.0]), np.array([0.0, 11.0]), fill=FRICTION, width=2.0)
     return Sign(scene, 24.0, "friction, and its cone")
-
-
-def _turning() -> Sign:
-    """Return the sign of turning."""
-    scene, angles, radius = Scene(), np.linspace(-0.6, 2.6, 16), 9.0
-    rim = np.array([0.0, -radius / 3]) + radius * np.column_stack([np.cos(angles), np.sin(angles)])
-    scene.line(rim[:-2], stroke=VELOCITY, width=2.0)
-    scene.arrow(rim[-6], rim[-1], fill=VELOCITY, width=2.0)
-    return Sign(scene, 24.0, "turn in 1 s")
 
 
 def _sign(meaning: str, room: float, *shapes: Shape) -> Sign:

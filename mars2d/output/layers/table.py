@@ -18,15 +18,14 @@ from mars2d.output.layers.bodies import (
     initial_poses,
     joints,
     place_prop,
+    place_ring,
     place_robot,
 )
 from mars2d.output.layers.forces import forces
 from mars2d.output.layers.ground import edge, obstacles, workspace
 from mars2d.output.layers.impulses import impulses
 from mars2d.output.layers.messages import messages
-from mars2d.output.layers.neighbours import neighbours
-from mars2d.output.layers.ranges import place_range
-from mars2d.output.layers.rings import place_ring
+from mars2d.output.layers.neighbours import neighbours, place_range
 from mars2d.output.layers.trails import trails
 from mars2d.output.layers.velocities import velocities
 from mars2d.record.frame import Frame

@@ -20,11 +20,10 @@ TRAIL_WIDTH, PROP_TRAIL_WIDTH = 1.6, 1.0
 """The width of a robot's and of a prop's path, points."""
 
 
-def trails(frame: Frame, styles: Sequence[str] | None = None) -> Scene:
+def trails(frame: Frame) -> Scene:
     """Return the paths so far: the robots' in the animation's wake style, the props' thin.
 
-    styles: of the robots' paths, in place of the wake style. Props that have never moved have none.
-    A path is broken where its body was put elsewhere by hand.
+    Props that never moved have none. A path is broken where its body was put elsewhere by hand.
     """
     scene, n = Scene(), len(frame.scenario.robots)
     if len(frame.prop_path):
@@ -33,11 +32,11 @@ def trails(frame: Frame, styles: Sequence[str] | None = None) -> Scene:
             if np.ptp(path, axis=0).max() > 0:
                 for piece in _pieces(path, frame.leaps, n + i):
                     scene.line(piece, stroke=color, width=PROP_TRAIL_WIDTH)
-    styles = styles or [frame.scenario.animation.wake_style] * n
+    style = frame.scenario.animation.wake_style
     for i, color in enumerate(trail_colors(frame.scenario)):
         path = np.vstack([frame.path[:, :2, i], frame.pose[None, :2, i]])
         for piece in _pieces(path, frame.leaps, i):
-            scene.line(piece, stroke=color, width=TRAIL_WIDTH, style=styles[i])
+            scene.line(piece, stroke=color, width=TRAIL_WIDTH, style=style)
     return scene
 
 

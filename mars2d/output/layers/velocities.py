@@ -1,12 +1,8 @@
-"""How fast everything moves: arrows of velocity, and arcs of how far it turns in a second.
-
-Robots with a least turning radius have the circles that they can't turn into.
-"""
+"""How fast everything moves, as arrows, and the circles that robots can't turn into."""
 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mars2d.core.scene import Scene, faded
 from mars2d.output.layers.arrows import (
@@ -19,26 +15,14 @@ from mars2d.output.layers.arrows import (
     shortening,
     usual_length,
 )
-from mars2d.output.layers.bodies import bounding_circle
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 
-Float = NDArray[np.float64]
-
 VELOCITY = "#00695c"
-ARROW_WIDTH, ARC_WIDTH = 3.2, 2.0  # points
+ARROW_WIDTH = 3.2  # points
 
 SLOWEST = 0.01
 """Slower bodies, in shares of the fastest drive's bound, have no arrow."""
-
-MIN_TURN, MAX_TURN = 0.15, 5.0
-"""The slowest turn that has an arc, radians a second, and the longest arc, radians."""
-
-MAX_ARCS = 16
-"""Of more bodies that turn, the quickest have an arc."""
-
-HEAD = 0.5
-"""The length of the arrow at an arc's end, radians at most."""
 
 CROWD = 30
 """With more bodies, arrows have no edge."""
@@ -59,19 +43,13 @@ def velocities(frame: Frame) -> Scene:
     """Return the mean velocities of the control step that led to a frame.
 
     An arrow goes from the middle of a body to where it would be after some time, the same for all.
-    An arc beside it goes from its heading to what that will be after a second. Below, two circles
-    show how tightly a robot can turn at its speed, where its drive bounds this.
+    Below, two circles show how tightly a robot can turn at its speed, where its drive bounds this.
     """
     scene, velocity = Scene(), frame.velocity
     if len(frame.scenario.robots) <= CROWD:
         _tightest_turns(scene, frame)
     scale = speed_scale(frame.scenario)
     poses = frame.all_poses
-    turning = np.argsort(-np.abs(velocity[2]), kind="stable")[:MAX_ARCS]
-    for i in sorted(turning.tolist()):
-        if abs(velocity[2, i]) >= MIN_TURN:
-            center, radius = bounding_circle(frame.scenario.bodies[i].shape, poses[:, i])
-            _arc(scene, center, 1.3 * radius, float(poses[2, i]), float(velocity[2, i]))
     speed = np.hypot(velocity[0], velocity[1])
     moving = np.flatnonzero(speed >= SLOWEST * scale.most)
     shorter = shortening(scale.unit * speed[moving], scale.longest)
@@ -90,18 +68,6 @@ def _tightest_turns(scene: Scene, frame: Frame) -> None:
         for side in (-radius, radius) if radius else ():
             center = x - side * np.sin(theta), y + side * np.cos(theta)
             scene.circle(center, radius, stroke=TIGHTEST, width=1.0)
-
-
-def _arc(scene: Scene, center: Float, radius: float, heading: float, turn: float) -> None:
-    """Draw an arc with the head of an arrow; turn: radians."""
-    turn = float(np.clip(turn, -MAX_TURN, MAX_TURN))
-    head = min(HEAD, abs(turn)) * np.sign(turn)
-    angles = heading + np.linspace(0.0, turn - 0.5 * head, max(3, int(abs(turn) / 0.2) + 2))
-    rim = center + radius * np.column_stack([np.cos(angles), np.sin(angles)])
-    scene.line(rim, stroke=VELOCITY, width=ARC_WIDTH)
-    ends = heading + np.array([turn - head, turn])
-    tail, tip = center + radius * np.column_stack([np.cos(ends), np.sin(ends)])
-    scene.arrow(tail, tip, fill=VELOCITY, width=ARC_WIDTH)
 
 
 def in_metres_a_second(speed: float) -> str:

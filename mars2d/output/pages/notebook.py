@@ -24,13 +24,13 @@ from mars2d.output.figures.figure import (
     dress,
     label,
     layers_of,
-    legend_size,
+    new_axes,
     new_figure,
     paint_frame,
-    signs_of,
+    robots_of,
 )
-from mars2d.output.figures.legend import BESIDE, add_legend
-from mars2d.output.figures.style import SCREEN
+from mars2d.output.figures.legend import BESIDE, add_legend, legend_width
+from mars2d.output.figures.style import INK, SMALL, points
 from mars2d.output.raster.theme import LIGHT
 from mars2d.record.frame import Frame
 
@@ -41,14 +41,8 @@ if TYPE_CHECKING:
     from mars2d.record.rows import Rows
     from mars2d.scenario.scenario import Scenario
 
-WIDTH, HEIGHT = 5.8, 4.6
-"""The room for a drawing, which is as large as fits, inches."""
-
-LEFT, ABOVE, BELOW = 0.6, 0.1, 0.55
-"""The room beside, above and below it, inches."""
-
-LINE_HEIGHT, LETTER_WIDTH = 0.17, 0.068
-"""Of the words below it, inches."""
+LETTERS = 95
+"""About the letters of a line below a picture."""
 
 REPLAY_HEIGHT = 480
 """The height of a replay, pixels."""
@@ -95,7 +89,7 @@ def record_html(record: Rows) -> str:
     If there is no replay, or one too large for a notebook, a text below the picture says so.
     """
     picture = BytesIO()
-    _end(record).savefig(picture, format="png", dpi=96)
+    _end(record).savefig(picture, format="png", dpi=96, bbox_inches="tight")
     title = escape(f"Replay of {record.scenario.title}")
     image = (
         f'<img alt="{title}, its end" '
@@ -127,8 +121,9 @@ def _picture(made: Callable[[], tuple[Frame, str]], title: str) -> Figure:
     try:
         return drawn(*made())
     except Exception as error:  # any of it may call code of the user's
-        words = f"{title}: can't be drawn. {described(error)}"
-        return _with_words(WIDTH, ABOVE, [(words, LIGHT.failed)])
+        figure = new_figure(5.8, 0.1, layout=None)
+        _write(figure, [(f"{title}: can't be drawn. {described(error)}", LIGHT.failed)])
+        return figure
 
 
 def drawn(frame: Frame, caption: str, layers: Layers | None = None) -> Figure:
@@ -139,7 +134,7 @@ def drawn(frame: Frame, caption: str, layers: Layers | None = None) -> Figure:
     """
     scenario = frame.scenario
     layers = layers or layers_of(scenario).switched(names=len(scenario.bodies) <= LEGEND_LIMIT)
-    words = [(caption, SCREEN.ink)]
+    words = [(caption, INK)]
     for layer in layers.seen(scenario.animation):
         try:
             if layer.shapes:
@@ -149,36 +144,28 @@ def drawn(frame: Frame, caption: str, layers: Layers | None = None) -> Figure:
             words.append((f"Not drawn: {layer.title.lower()}. {described(error)}", LIGHT.failed))
     paths = (frame.path, frame.pose), (frame.prop_path, frame.prop_pose)
     view = View.around(scenario, *(np.concatenate([path, pose[None]]) for path, pose in paths))
-    signs = signs_of([frame], layers, SCREEN, 72 * view.inches(WIDTH, HEIGHT)[0] / view.width)
-    beside, _ = legend_size(signs, SCREEN)
-    width, height = view.inches(WIDTH - beside, HEIGHT)
-    figure = _with_words(LEFT + width + beside, ABOVE + height + BELOW, words)
-    whole, tall = figure.get_size_inches().tolist()
-    ax = figure.add_axes((LEFT / whole, 1 - (ABOVE + height) / tall, width / whole, height / tall))
-    dress(ax, scenario, view, SCREEN, layers)
+    entries = robots_of(scenario)
+    (ax,) = new_axes(view, beside=legend_width(entries))
+    dress(ax, scenario, view, layers)
     label(ax)
-    add_legend(ax, signs, SCREEN, **BESIDE)
-    paint_frame(ax, frame, SCREEN, layers)
-    return figure
+    add_legend(ax, entries, **BESIDE)
+    paint_frame(ax, frame, layers)
+    figure: Any = ax.figure
+    _write(figure, words)
+    return figure  # type: ignore[no-any-return]
 
 
-def _with_words(width: float, height: float, words: list[tuple[str, str]]) -> Figure:
-    """Return a figure with room for a drawing [inches], and texts in their colours below it."""
-    letters = int(width / LETTER_WIDTH)
-    lines = [
-        (line, color)
-        for text, color in words
-        for line in textwrap.wrap(text, letters, max_lines=3, placeholder=" …")
-    ]
-    tall = height + LINE_HEIGHT * (len(lines) + 0.5)
-    figure = new_figure(width + ABOVE, tall, layout=None)
+def _write(figure: Figure, words: list[tuple[str, str]]) -> None:
+    """Write texts in their colours below a figure."""
     figure.set_label(" ".join(text for text, _ in words))  # for people who can't see it
-    for k, (line, color) in enumerate(lines):
+    below = 0.0
+    for text, color in words:
+        lines = textwrap.wrap(text, LETTERS, max_lines=3, placeholder=" …")
         figure.text(
-            0.01, 1 - (height + LINE_HEIGHT * k) / tall, line, color=color, fontsize=SCREEN.small,
-            va="top", parse_math=False,
+            0.01, -below / figure.get_figheight(), "\n".join(lines), color=color, va="top",
+            fontsize=points(SMALL), parse_math=False,
         )  # fmt: skip
-    return figure
+        below += 1.25 * len(lines) * points(SMALL) / 72
 
 
 def svg_of(figure: Figure) -> str:
@@ -187,7 +174,7 @@ def svg_of(figure: Figure) -> str:
 
     file, told = StringIO(), {"Date": None, "Title": str(figure.get_label())}
     with mpl.rc_context({"svg.hashsalt": "mars2d", "svg.fonttype": "none"}):
-        figure.savefig(file, format="svg", metadata=told)
+        figure.savefig(file, format="svg", bbox_inches="tight", metadata=told)
     picture = " ".join(file.getvalue().partition("<svg ")[2].split())
     return f'<svg style="max-width:100%;height:auto" {picture}'
 

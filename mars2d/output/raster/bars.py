@@ -22,9 +22,8 @@ MAX_BANNER_LINES = 8
 MAX_CODE_LINES = 5
 MAX_BANNER_SHARE = 0.5
 """The largest share of the surface's height: longer text is cut, lines of code are left out."""
-SEPARATOR = " · "
-MIN_TITLE_WIDTH = 110.0
-"""The least width of a title, points; the step is left out first to make room."""
+MIN_TITLE_WIDTH, NUMBER_WIDTH = 110.0, 120.0
+"""The least width of a title, and about that of time and step, which makes room first, points."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,20 +70,14 @@ def draw_header(
         right = _chip(surface, painter, status, right, bar, ui) - gap
     step = scenario.sampling_time  # two of which the decimals tell apart
     digits = next((k for k in (1, 2) if abs(round(step, k) - step) < 1e-9), 3)
-    longest = f"{scenario.stop_time:.{digits}f} s"
-    longest = longest if len(longest) < 12 else "00000.00 s"
-    values = {  # each with the widest one, which keeps the name in its place
-        "time": (f"{frame.time:.{digits}f} s", longest),
-        "step": (str(frame.iteration), "0" * len(str(scenario.last_iteration))),
-    }
-    widest = {key: max(fonts.width(text, 18 * ui) for text in two) for key, two in values.items()}
-    wide = sum(each + space + fonts.width(name, 14 * ui) for name, each in widest.items())
+    values = {"step": str(frame.iteration), "time": f"{frame.time:.{digits}f} s"}
     least = min(MIN_TITLE_WIDTH * ui, fonts.width(title, 20 * ui, bold=True))
-    if right < wide + least + 2 * gap + pad:
+    if right < 2 * NUMBER_WIDTH * ui + least + 2 * gap + pad:
         del values["step"]
-    for name, (value, _) in reversed(values.items()):
-        painter.write(surface, value, 18 * ui, theme.ink, midright=(right, bar.centery))
-        place = right - widest[name] - space, bar.centery + round(ui)
+    for name, value in values.items():
+        place = right, bar.centery
+        end = painter.write(surface, value, 18 * ui, theme.ink, midright=place).left - space
+        place = end, bar.centery + round(ui)
         right = painter.write(surface, name, 14 * ui, theme.muted, midright=place).left - gap
     shown = fonts.shorten(title, 20 * ui, right - pad, bold=True)
     if len(shown) > 3 or shown == title:
@@ -120,8 +113,8 @@ def draw_footer(
 ) -> None:
     """Draw the banner across the footer, or a plain line of text if there is none.
 
-    left: text of parts with dots between; parts at its end are left out if there is no room. hints:
-    (key, action) pairs at the right end; the first ones are left out if there is no room.
+    left: text. hints: (key, action) pairs at the right end; the first ones are left out if there is
+    no room.
     """
     ui, bar, fonts, theme = layout.ui, layout.footer, painter.fonts, painter.theme
     if bar.height <= 0:
@@ -133,10 +126,7 @@ def draw_footer(
     surface.fill(theme.bar, bar)
     surface.fill(theme.edge, (bar.left, bar.top, bar.width, 1))
     end = _hints(surface, painter, hints, bar, ui)
-    text = left
-    while fonts.width(text, 14 * ui) > end - 2 * pad and SEPARATOR in text:
-        text = text.rpartition(SEPARATOR)[0].rstrip()
-    text = fonts.shorten(text, 14 * ui, end - 2 * pad)
+    text = fonts.shorten(left, 14 * ui, end - 2 * pad)
     if len(text) > 3:
         painter.write(surface, text, 14 * ui, theme.muted, midleft=(pad, bar.centery))
 
@@ -173,33 +163,29 @@ def footer_height(
     """Return the height of the footer, points: more than one line for a long message."""
     if banner is None:
         return FOOTER
-    ui = interface_scale(size, text, scale)
-    lines, hint_below = _banner_lines(banner, size, painter, ui)
-    height = FOOTER + LINE_HEIGHT * (len(lines) - 1) + (LINE_HEIGHT if hint_below else 0.0)
-    if banner.excerpt is not None:
-        room = MAX_BANNER_SHARE * size[1] / ui - height
-        wanted = min(MAX_CODE_LINES, len(banner.excerpt.lines))
-        height += _code_height(min(wanted, int((room - 20) / CODE_LINE_HEIGHT)))
-    return height
+    lines, below, code = _banner_rows(banner, size, painter, interface_scale(size, text, scale))
+    return FOOTER + LINE_HEIGHT * (len(lines) - 1 + below) + _code_height(code)
 
 
 def _code_height(lines: int) -> float:
     return CODE_LINE_HEIGHT * lines + 20 if lines > 0 else 0.0
 
 
-def _banner_lines(
+def _banner_rows(
     banner: Banner, size: tuple[int, int], painter: Painter, ui: float
-) -> tuple[list[str], bool]:
-    """Return the lines of a banner's text, and whether its hint is below them."""
+) -> tuple[list[str], bool, int]:
+    """Return the lines of a banner's text, whether its hint is below, and its lines of code."""
     hint = painter.fonts.width(banner.hint, 15 * ui) + 40 * ui if banner.hint else 0.0
     below = hint > 0.4 * size[0]
-    room = size[0] - 40 * ui - (0 if below else hint)
-    code = 0.0 if banner.excerpt is None else _code_height(1)
-    fits = (
-        int((MAX_BANNER_SHARE * size[1] / ui - (FOOTER - LINE_HEIGHT) - code) / LINE_HEIGHT) - below
+    wide = size[0] - 40 * ui - (0 if below else hint)
+    code = 0 if banner.excerpt is None else min(MAX_CODE_LINES, len(banner.excerpt.lines))
+    high = MAX_BANNER_SHARE * size[1] / ui - FOOTER  # beside the first line
+    most = 1 + int((high - _code_height(min(code, 1))) / LINE_HEIGHT) - below
+    lines = painter.fonts.wrap(
+        banner.text, 18 * ui, wide, min(max(most, 1), MAX_BANNER_LINES), bold=True
     )
-    most = min(max(fits, 1), MAX_BANNER_LINES)
-    return painter.fonts.wrap(banner.text, 18 * ui, room, most, bold=True), below
+    left = high - LINE_HEIGHT * (len(lines) - 1 + below) - 20
+    return lines, below, max(0, min(code, int(left / CODE_LINE_HEIGHT)))
 
 
 def _draw_banner(
@@ -207,17 +193,10 @@ def _draw_banner(
 ) -> None:
     theme, pad = painter.theme, round(20 * ui)
     surface.fill(theme.failed if banner.error else theme.over, bar)
-    lines, hint_below = _banner_lines(banner, surface.get_size(), painter, ui)
-    rows = len(lines) + hint_below
+    lines, hint_below, code = _banner_rows(banner, surface.get_size(), painter, ui)
     step = LINE_HEIGHT * ui
-    room = bar.height - (FOOTER + LINE_HEIGHT * (rows - 1)) * ui
-    code = (
-        0
-        if banner.excerpt is None
-        else max(0, int((room - 20 * ui) / (CODE_LINE_HEIGHT * ui) + 0.01))
-    )
     text = pygame.Rect(bar.left, bar.top, bar.width, bar.height - round(_code_height(code) * ui))
-    y = text.centery - step * (rows - 1) / 2
+    y = text.centery - step * (len(lines) - 1 + hint_below) / 2
     for line in lines:
         painter.write(surface, line, 18 * ui, theme.on_banner, bold=True, midleft=(pad, y))
         y += step

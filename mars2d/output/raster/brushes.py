@@ -148,24 +148,6 @@ def stroke(surface: pygame.Surface, color: Rgba, pieces: list[Float], width: flo
             cover(surface, color, extent, lambda on: on.lines(color, pieces, width))
 
 
-def hairline(
-    surface: pygame.Surface, color: Rgba, x0: float, y0: float, x1: float, y1: float
-) -> None:
-    """Draw a straight line a pixel wide, as `stroke` does but quickly."""
-    if color[3] == 255:
-        pygame.draw.aaline(surface, color, (x0 - 0.5, y0 - 0.5), (x1 - 0.5, y1 - 0.5))
-        return
-    left, top = floor(min(x0, x1)) - 2, floor(min(y0, y1)) - 2
-    box = pygame.Rect(left, top, ceil(max(x0, x1)) + 2 - left, ceil(max(y0, y1)) + 2 - top)
-    box = box.clip(surface.get_clip())
-    if box.width > 0 and box.height > 0:
-        patch = pygame.Surface(box.size, pygame.SRCALPHA, 32)
-        patch.fill((*color[:3], 0))
-        dx, dy = box.left + 0.5, box.top + 0.5
-        pygame.draw.aaline(patch, color, (x0 - dx, y0 - dy), (x1 - dx, y1 - dy))
-        surface.blit(patch, box)
-
-
 def mark(
     marker: str, color: Rgba, x: float, y: float, ui: float, width: float
 ) -> tuple[Draw, float]:

@@ -63,14 +63,9 @@ class Fonts:
         """Return `text`, cut with an ellipsis where it is wider than `room` pixels."""
         if self.width(text, size, bold, mono) <= room:
             return text
-        low, high = 0, len(text)
-        while low < high:
-            middle = (low + high + 1) // 2
-            if self.width(text[:middle].rstrip() + "…", size, bold, mono) <= room:
-                low = middle
-            else:
-                high = middle - 1
-        return text[:low].rstrip() + "…"
+        while text and self.width(f"{text}…", size, bold, mono) > room:
+            text = text[:-1].rstrip()
+        return f"{text}…"
 
     def wrap(
         self, text: str, size: float, room: float, lines: int, bold: bool = False

@@ -9,15 +9,15 @@ import pygame
 from numpy.typing import NDArray
 
 from mars2d.core.plane import grid_step
+from mars2d.core.scene import Anchor, Scene
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
-from mars2d.output.raster.theme import Theme
 
 Bounds = tuple[float, float, float, float]
 Float = NDArray[np.float64]
 
-MIN_SPACING = 42
-"""Points between grid lines, at least."""
+MIN_SPACING, SIZE = 42, 12.0
+"""The least distance of grid lines, and the height of their labels, points."""
 
 
 def ticks(low: float, high: float, step: float) -> Float:
@@ -56,51 +56,33 @@ def draw_grid(surface: pygame.Surface, camera: Camera, bounds: Bounds, painter: 
         pygame.draw.line(surface, color, (round(left), py), (round(right) - 1, py))
 
 
-def labels(
-    clip: pygame.Rect, camera: Camera, bounds: Bounds, painter: Painter
-) -> list[tuple[pygame.Surface, tuple[int, int]]]:
-    """Return the labels in metres, as images and their places.
+def labels(clip: pygame.Rect, camera: Camera, bounds: Bounds, painter: Painter) -> Scene:
+    """Return the labels in metres, as a scene for a camera of pixels, y upwards.
 
     They lie along the left and lower side of the part of `bounds` that is visible in `clip`.
     """
-    fonts, theme, ui = painter.fonts, painter.theme, painter.ui
-    size, gap = 12 * ui, round(7 * ui)
+    scene, theme, ui = Scene(), painter.theme, painter.ui
     step = grid_step(MIN_SPACING * ui / camera.scale)
     shown = _visible(clip, camera, bounds)
     if shown is None:
-        return []
+        return scene
     left, _, _, bottom = shown
     xmin, xmax, ymin, ymax = _metres(camera, *shown)
-    xs, ys = ticks(xmin, xmax, step).tolist(), ticks(ymin, ymax, step).tolist()
-    widest = max((fonts.width(label(y, step), size) for y in ys), default=0)
-    below = min(round(bottom) + gap, clip.bottom - round(size * 1.7))
-    beside = max(round(left) - gap, clip.left + widest + gap)
-    result = []
-    for x in xs:
-        image = fonts.render(label(x, step), size, theme.muted)
-        place = image.get_rect(midtop=(round(camera.x + camera.scale * x), below))
-        if below >= bottom or beside + gap <= place.left:
-            result.append(_on_plate(image, place, theme if below < bottom else None))
-    for y in ys:
-        image = fonts.render(label(y, step), size, theme.muted)
-        place = image.get_rect(midright=(beside, round(camera.y - camera.scale * y)))
-        if beside <= left or place.bottom <= below:
-            result.append(_on_plate(image, place, theme if beside > left else None))
-    return result
+    ys = [(y, label(y, step)) for y in ticks(ymin, ymax, step).tolist()]
+    widest = max((painter.fonts.width(text, SIZE * ui) for _, text in ys), default=0)
+    below = min(bottom + 4 * ui, clip.bottom - 1.7 * SIZE * ui)
+    beside = max(left - 4 * ui, clip.left + widest + 7 * ui)
 
+    def write(x: float, y: float, text: str, anchor: Anchor) -> None:
+        scene.text((x, -y), text, color=theme.muted, size=SIZE, anchor=anchor, halo=theme.page)
 
-def _on_plate(
-    image: pygame.Surface, place: pygame.Rect, theme: Theme | None
-) -> tuple[pygame.Surface, tuple[int, int]]:
-    """Put a label on a plate in the theme's page colour; without a theme, leave it as it is."""
-    if theme is None:
-        return image, place.topleft
-    larger = place.inflate(8, 2)
-    result = pygame.Surface(larger.size, 0, 32)
-    result.fill(theme.page)
-    result.blit(image, (4, 1))
-    result.set_alpha(215)
-    return result, larger.topleft
+    for x in ticks(xmin, xmax, step).tolist():
+        write(camera.x + camera.scale * x, below, label(x, step), "below")
+    for y, text in ys:
+        at = camera.y - camera.scale * y
+        if beside <= left or at < below:
+            write(beside, at, text, "right")
+    return scene
 
 
 def _visible(

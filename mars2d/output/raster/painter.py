@@ -29,11 +29,7 @@ from mars2d.output.raster import brushes
 from mars2d.output.raster.brushes import Draw, Enlarged, Rgba, rgba
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.fonts import Fonts
-from mars2d.output.raster.strokes import (
-    clip_polygon,
-    dashes,
-    simplified,
-)
+from mars2d.output.raster.strokes import clip_polygon, dashes
 from mars2d.output.raster.theme import LIGHT, Theme
 
 Float = NDArray[np.float64]
@@ -41,22 +37,15 @@ Layer = tuple[Rgba, Draw, int]
 """One colour of a sprite: its ink, what draws it, and the factor of enlargement or 0."""
 
 PHASES = 4
-BROAD_RADIUS = 20.0
-"""The radius from which a ring is drawn with hairlines, pixels."""
 MAX_SPRITE_SIDE = 160.0
 MAX_UNCUT = 10_000.0
 """The largest coordinate of a hairline that is drawn without clipping, pixels."""
 ARROW_EDGE = 0.4
 """The width of the edge round an arrow, in widths of its shaft."""
-SMALL_AREA = 10_000
-"""The largest area at which a polygon's fill and edge are drawn together, pixels."""
 FAINT_OPACITY = 96
 """The opacity, of 255, below which a fill's edge needs no anti-aliasing when it is large."""
 LARGE_AREA = 2_500
 """The area from which a fill counts as large, pixels."""
-EDGE_TOLERANCE = 0.3
-"""The error allowed for the edge of a large faint fill, pixels."""
-
 
 Sprite = tuple[pygame.Surface, int, int]
 """A small picture, and the offset of its corner from the whole pixel at which it is drawn."""
@@ -185,16 +174,6 @@ class Painter:
             return
         width, ring = shape.width * self.ui, np.vstack([points, points[:1]])
         fill, stroke = self._ink(shape.fill), self._ink(shape.stroke)
-        if fill and stroke and fill[3] == stroke[3] == 255:
-            box = brushes.extent_of(points, width / 2 + 1)
-            if box.width * box.height <= SMALL_AREA:  # both together, which is quicker
-
-                def draw(on: Enlarged) -> None:
-                    on.polygon(fill, points)
-                    on.lines(stroke, [ring], width)
-
-                brushes.cover(surface, stroke, box, draw, factor=4)
-                return
         if fill:
             self._fill(surface, points, fill)
         if stroke:
@@ -205,9 +184,8 @@ class Painter:
         if len(visible) < 3:
             return
         box = brushes.extent_of(visible, 1.0)
-        factor = 0
-        if color[3] < FAINT_OPACITY and box.width * box.height > LARGE_AREA:
-            factor, visible = 1, simplified(visible, EDGE_TOLERANCE)
+        large = color[3] < FAINT_OPACITY and box.width * box.height > LARGE_AREA
+        factor = 1 if large else 0
         brushes.cover(surface, color, box, lambda on: on.polygon(color, visible), factor)
 
     # -- lines --------------------------------------------------------------------------------
@@ -241,14 +219,8 @@ class Painter:
             width = min(width, max(1.0, (abs(dx) + abs(dy)) / 3.5))
         width = round(8 * width) / 8
         color = rgba(self._shade(shape.stroke))
-        if (
-            width <= 1.0
-            and -MAX_UNCUT < x < MAX_UNCUT
-            and -MAX_UNCUT < y < MAX_UNCUT
-            and abs(dx) + abs(dy) < MAX_UNCUT
-        ):
-            color = (*color[:3], round(width * color[3]))  # thinner is fainter
-            brushes.hairline(surface, color, x, y, x + dx, y + dy)
+        if width <= 1.0 and color[3] == 255 and max(map(abs, (x, y, dx, dy))) < MAX_UNCUT:
+            pygame.draw.aaline(surface, color, (x - 0.5, y - 0.5), (x + dx - 0.5, y + dy - 0.5))
             return
         if max(abs(dx), abs(dy)) > MAX_SPRITE_SIDE / 2:
             brushes.stroke(surface, color, [np.array([(x, y), (x + dx, y + dy)])], width)
@@ -370,17 +342,15 @@ class Painter:
         sight = surface.get_clip()
         left, wide = camera.x + camera.scale * xmin, camera.scale * (xmax - xmin) / columns
         top, high = camera.y - camera.scale * ymax, camera.scale * (ymax - ymin) / rows
-        across = _cells(left, wide, columns, sight.left, sight.right)
-        down = _cells(top, high, rows, sight.top, sight.bottom)
-        if across is None or down is None:
+        first, last = _cells(left, wide, columns, sight.left, sight.right)
+        upper, lower = _cells(top, high, rows, sight.top, sight.bottom)
+        if first >= last or upper >= lower:
             return
-        place = across[0][0], down[0][0]
-        seen = shape.pixels[down[1]][:, across[1]].swapaxes(0, 1)
-        part = _surface_of(self.theme.shade_pixels(seen))
-        size = across[0][1] - across[0][0], down[0][1] - down[0][0]
-        if part.get_size() != size:
-            part = pygame.transform.smoothscale(part, size)
-        surface.blit(part, place)
+        seen = shape.pixels[upper:lower, first:last].swapaxes(0, 1)
+        place = round(left + wide * first), round(top + high * upper)
+        size = round(left + wide * last) - place[0], round(top + high * lower) - place[1]
+        scaled = pygame.transform.scale if min(wide, high) >= 1 else pygame.transform.smoothscale
+        surface.blit(scaled(_surface_of(self.theme.shade_pixels(seen)), size), place)
 
     # -- words and plates of the window -------------------------------------------------------
 
@@ -442,24 +412,13 @@ def _surface_of(pixels: NDArray[np.uint8]) -> pygame.Surface:
     return surface
 
 
-def _cells(
-    start: float, size: float, count: int, low: int, high: int
-) -> tuple[tuple[int, int], NDArray[np.int64]] | None:
-    """Return which screen pixels (first, end) an image takes along one axis, and which of its own.
+def _cells(start: float, size: float, count: int, low: int, high: int) -> tuple[int, int]:
+    """Return the first of an image's pixels that are in sight along one axis, and their end.
 
     start, size: of the image's first pixel on the screen, in screen pixels. count: of the image's
-    pixels. low, high: the screen pixels in sight. Each screen pixel has one of the image's, the
-    one at its middle; where those are smaller, all are returned, to be averaged.
+    pixels. low, high: the screen pixels in sight.
     """
-    first, end = max(low, round(start)), min(high, round(start + size * count))
-    if first >= end:
-        return None
-    if size >= 1:
-        own = ((np.arange(first, end) + 0.5 - start) / size).astype(int).clip(0, count - 1)
-    else:
-        low, high = floor((first - start) / size), ceil((end - start) / size)
-        own = np.arange(max(low, 0), min(high, count))
-    return (first, end), own
+    return max(floor((low - start) / size), 0), min(ceil((high - start) / size), count)
 
 
 def _sprite_factor(box: pygame.Rect) -> int:
@@ -476,14 +435,8 @@ def _disc_layers(
     fill: Rgba | None, stroke: Rgba | None, radius: float, width: float, x: float, y: float
 ) -> list[Layer]:
     layers: list[Layer] = []
-    broad = radius > BROAD_RADIUS and stroke is not None
     if fill:
-        # The ring will cover the edge.
-        factor = 0 if not broad else 1 if fill[3] < FAINT_OPACITY else 2
-        layers.append((fill, lambda on: on.disc(fill, x, y, radius), factor))
-    if stroke and broad:
-        rim = [brushes.ring(x, y, radius)]
-        layers.append((stroke, lambda on: on.hairlines(stroke, rim, width), 1))
-    elif stroke:
+        layers.append((fill, lambda on: on.disc(fill, x, y, radius), 0))
+    if stroke:
         layers.append((stroke, lambda on: on.disc(stroke, x, y, radius + width / 2, width), 0))
     return layers

@@ -5,19 +5,15 @@ from __future__ import annotations
 from collections.abc import Hashable, Sequence
 from itertools import takewhile
 from math import ceil, floor
-from operator import is_
 from time import perf_counter
-from typing import NamedTuple
 
 import pygame
 
 from mars2d.core.scene import Shape
-from mars2d.output.layers.addons import sensors
 from mars2d.output.layers.bodies import starts
 from mars2d.output.layers.legend import legends
-from mars2d.output.layers.placement import AVOIDED, placed_names
 from mars2d.output.layers.table import FIRST_BODIES, LAST_BODIES, LAYERS, Layers, standing
-from mars2d.output.raster.camera import Camera
+from mars2d.output.raster.camera import PIXELS, Camera
 from mars2d.output.raster.grid import Bounds, draw_grid, labels
 from mars2d.output.raster.legend import draw_legends
 from mars2d.output.raster.painter import Painter
@@ -25,34 +21,21 @@ from mars2d.output.raster.trails import Wakes
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 
-SHIFT_TOLERANCE = 1e-6
-"""The distance from a whole number of pixels up to which a shift counts as whole."""
-
 
 class Canvas:
-    """The layers that seldom change, drawn once: those that stand still, and the paths.
+    """The layers that seldom change, drawn once for a camera: those that stand still, and paths.
 
-    Other cameras of the same scale can show it shifted. camera: of the whole surface. area: its
-    part that is drawn, pixels. memory: bytes that may be used to go back in time quickly. seconds:
-    the time that drawing took. made: when it began, on the clock of `perf_counter`.
+    seconds: the time that drawing took. made: when it began, on the clock of `perf_counter`.
     """
 
     def __init__(
-        self,
-        painter: Painter,
-        frame: Frame,
-        camera: Camera,
-        layers: Layers,
-        size: tuple[int, int],
-        area: pygame.Rect,
-        *,
-        memory: int = 0,
-    ) -> None:
-        """Draw the layers that stand still on a surface of `size` pixels."""
-        self.made = perf_counter()
-        self.camera, self.area = camera, area
+        self, painter: Painter, frame: Frame, camera: Camera, layers: Layers, size: tuple[int, int],
+        plot: pygame.Rect,
+    ) -> None:  # fmt: skip
+        """Draw the layers that stand still on the part `plot` of a surface of `size` pixels."""
+        self.made, self.camera, self.area = perf_counter(), camera, plot
         self.still = pygame.Surface(size, 0, 32)
-        self.still.set_clip(area)
+        self.still.set_clip(plot)
         self.still.fill(painter.theme.page)
         scenario = frame.scenario
         for layer in takewhile(standing().__contains__, layers.seen(scenario.animation)):
@@ -62,33 +45,17 @@ class Canvas:
             else:
                 painter.paint(self.still, layer.shapes(frame).shapes, camera)
         self.wakes: Wakes | None = None
-        self._painter, self._scenario, self._memory = painter, scenario, memory
+        if layers.trails and scenario.animation.wake_style == "-":
+            self.wakes = Wakes(painter, scenario, camera, self.still)
+            self.wakes.show(frame)
         self.seconds = perf_counter() - self.made
 
-    def with_paths(self, frame: Frame) -> pygame.Surface:
-        """Return the picture with the paths up to a frame."""
+    def picture(self, frame: Frame) -> pygame.Surface:
+        """Return the picture, with solid paths up to a frame if they are seen."""
         if self.wakes is None:
-            start = perf_counter()
-            self.wakes = Wakes(self._painter, self._scenario, self.camera, self.still, self._memory)
-            self.wakes.show(frame)
-            self.seconds += perf_counter() - start
+            return self.still
         self.wakes.show(frame)
         return self.wakes.surface
-
-    def shift(self, camera: Camera) -> tuple[int, int]:
-        """Return the place of the surface's corner for another camera, in whole pixels."""
-        return round(camera.x - self.camera.x), round(camera.y - self.camera.y)
-
-    def shows(self, camera: Camera, plot: pygame.Rect) -> bool:
-        """Return whether the canvas covers all that a camera shows on a part of a surface."""
-        dx, dy = self.shift(camera)
-        return camera.scale == self.camera.scale and self.area.contains(plot.move(-dx, -dy))
-
-    def is_exact(self, camera: Camera) -> bool:
-        """Return whether the canvas is exact for a camera, without rounding of the shift."""
-        dx, dy = self.shift(camera)
-        off = camera.x - self.camera.x - dx, camera.y - self.camera.y - dy
-        return camera.scale == self.camera.scale and max(map(abs, off)) < SHIFT_TOLERANCE
 
 
 def grid_bounds(scenario: Scenario, camera: Camera, size: tuple[int, int]) -> Bounds:
@@ -97,9 +64,6 @@ def grid_bounds(scenario: Scenario, camera: Camera, size: tuple[int, int]) -> Bo
         return camera.view(size)
     return scenario.bounds
 
-
-MEMORY = 100_000_000
-"""The bytes that a window uses to go back in time quickly: about twenty pictures."""
 
 PATIENCE = 0.012
 """The seconds that the kept layers may take to draw before a moving camera jerks."""
@@ -110,42 +74,20 @@ MAX_AGE = 0.25
 NUMBERS = 48.0
 """The room for the numbers of an axis, points."""
 
-MARGIN = 0.25
-"""The margin that is drawn on all sides while the camera moves, as a share of the picture."""
-
-
-class _Shot(NamedTuple):
-    """What is drawn, and where: on the part `plot` of a surface."""
-
-    surface: pygame.Surface
-    frame: Frame
-    camera: Camera
-    layers: Layers
-    plot: pygame.Rect
-
 
 class Stage:
     """Draws frames of one experiment after another; used by the window, pictures and films alike.
 
-    The layers that stand still are drawn once for each camera. The paths grow on a copy of that
-    picture, and the readings are drawn on a copy of the paths, until the sensors read again. All
-    other layers are drawn for each frame.
-
-    memory: bytes that may be used to go back in time without drawing all paths from their start.
+    The layers that stand still are drawn once for each camera. Solid paths grow on a copy of that
+    picture. All other layers are drawn for each frame.
     """
 
-    def __init__(self, painter: Painter, memory: int = 0) -> None:
+    def __init__(self, painter: Painter) -> None:
         """Start with nothing drawn."""
         self.painter = painter
-        self.memory = memory
         self._canvas: Canvas | None = None
-        self._key: tuple[Hashable, ...] = ()
-        self._made_of: list[object] = []  # what the canvas shows
-        self._sensed: pygame.Surface | None = None
-        self._sensed_of: tuple[object, ...] = ()
-        self._places: dict[int, int] = {}  # of the names in the last picture
-        self._legend = pygame.Surface((0, 0)), (0, 0)
-        self._legend_of: tuple[object, ...] = ()
+        self._scenario: Scenario | None = None
+        self._key: tuple[Hashable, ...] = ()  # of what the canvas shows of the scenario
 
     def draw(
         self,
@@ -159,47 +101,47 @@ class Stage:
         beneath: Sequence[Shape] = (),
         marks: Sequence[Shape] = (),
         hurried: bool = False,
-        selected: int | None = None,
     ) -> None:
         """Draw a frame on the part `plot` of a surface, all of it by default.
 
         free: the parts of the plot on which nothing else will be drawn, where legends go, the
         largest first; by default all of it. beneath, marks: shapes to draw below and above the
-        bodies. selected: a body whose name goes before others, an index of `Scenario.bodies`.
-        hurried: whether the camera is moving. If the layers that stand still took long to draw, the
-        last picture of them is then enlarged or shifted for a quarter of a second.
+        bodies. hurried: whether the camera is moving. If the layers that stand still took long to
+        draw, the last picture of them is then enlarged or shifted for a quarter of a second.
         """
         plot = surface.get_rect() if plot is None else plot
-        before = surface.get_clip()
+        before, paint = surface.get_clip(), self.painter.paint
         surface.set_clip(plot)
-        shot = _Shot(surface, frame, camera, layers, plot)
-        canvas = self._canvas_for(shot, hurried)
-        (self._spread if canvas.shows(camera, plot) else self._enlarge)(shot, canvas)
-        self._paint_above(shot, beneath, marks, selected)
+        canvas = self._canvas_for(surface.get_size(), frame, camera, layers, plot, hurried=hurried)
+        if canvas.camera == camera:
+            surface.blit(canvas.picture(frame), plot, plot)
+        else:
+            self._enlarge(surface, canvas.picture(frame), canvas, camera, plot)
+        if canvas.wakes is not None and canvas.camera == camera:
+            canvas.wakes.finish(surface, frame)
+        seen = {layer.name for layer in layers.seen(frame.scenario.animation)}
+        seen -= {layer.name for layer in standing()} | ({"trails"} if canvas.wakes else set())
+        for layer in LAYERS:
+            if layer.name == FIRST_BODIES:
+                paint(surface, beneath, camera)
+            if layer.name in seen and layer.shapes is not None:
+                paint(surface, layer.shapes(frame).shapes, camera)
+            if layer.name == LAST_BODIES:
+                paint(surface, marks, camera)
         if layers.grid:
             bounds = grid_bounds(frame.scenario, camera, surface.get_size())
-            surface.fblits(labels(plot, camera, bounds, self.painter))
-        self._draw_legends(shot, free or [plot])
+            numbers = labels(plot, camera, bounds, self.painter)
+            paint(surface, numbers.shapes, PIXELS, shaded=False)
+        shown = [each for each in legends(frame.scenario) if getattr(layers, each.layer)]
+        rooms = free or [plot]
+        beside = [strip for room in rooms for strip in self._around(frame.scenario, camera, room)]
+        draw_legends(surface, self.painter, camera, rooms[0], shown, beside)
         surface.set_clip(before)
 
-    def _draw_legends(self, shot: _Shot, free: Sequence[pygame.Rect]) -> None:
-        """Draw legends beside the workspace if there is room, from a picture that is kept."""
-        (surface, frame, camera, layers, _), painter = shot, self.painter
-        beside = [strip for room in free for strip in self._around(shot, room)]
-        of = (frame.scenario, layers.on, camera.scale, *map(tuple, (*beside, *free)), painter.ui,
-              painter.theme)  # fmt: skip
-        if of != self._legend_of:
-            shown = [each for each in legends(frame.scenario) if getattr(layers, each.layer)]
-            whole = pygame.Surface(surface.get_size(), pygame.SRCALPHA, 32)
-            draw_legends(whole, painter, camera, free[0], shown, beside)
-            place = whole.get_bounding_rect()
-            self._legend_of, self._legend = of, (whole.subsurface(place).copy(), place.topleft)
-        shot.surface.blit(*self._legend)
-
-    def _around(self, shot: _Shot, room: pygame.Rect) -> list[pygame.Rect]:
+    def _around(self, scenario: Scenario, camera: Camera, room: pygame.Rect) -> list[pygame.Rect]:
         """Return the parts of a room beside the workspace and the numbers of its axes."""
-        xmin, xmax, ymin, ymax = shot.frame.scenario.bounds
-        corners = shot.camera.to_pixels([(xmin, ymax), (xmax, ymin)]).round().astype(int).tolist()
+        xmin, xmax, ymin, ymax = scenario.bounds
+        corners = camera.to_pixels([(xmin, ymax), (xmax, ymin)]).round().astype(int).tolist()
         (left, top), (right, bottom) = corners
         numbers = round(NUMBERS * self.painter.ui)
         left, right, bottom = left - numbers, right + numbers // 3, bottom + numbers // 2
@@ -211,74 +153,27 @@ class Stage:
         )
         return [side.clip(room) for side in sides if min(side.size) > 0]
 
-    def _paint_above(
-        self, shot: _Shot, beneath: Sequence[Shape], marks: Sequence[Shape], selected: int | None
-    ) -> None:
-        """Draw the layers above the kept ones, with `beneath` and `marks` around the bodies."""
-        surface, frame, camera, layers, plot = shot
-        seen = {layer.name for layer in layers.seen(frame.scenario.animation)}
-        arrows = [*marks]
-        for layer in LAYERS[_place("sensors") + 1 :]:
-            if layer.name == FIRST_BODIES:
-                self.painter.paint(surface, beneath, camera)
-            if layer.name in seen and layer.shapes is not None:
-                scene = layer.shapes(frame)
-                if layer.name in AVOIDED:
-                    arrows += scene.shapes
-                if layer.name == "names":
-                    (xmin, ymin), (xmax, ymax) = camera.to_world([plot.bottomleft, plot.topright])
-                    bounds, point = (xmin, xmax, ymin, ymax), self.painter.ui / camera.scale
-                    scene = placed_names(
-                        scene, frame, point, bounds, arrows, selected, self._places
-                    )
-                self.painter.paint(surface, scene.shapes, camera)
-            if layer.name == LAST_BODIES:
-                self.painter.paint(surface, marks, camera)
-
-    # -- the kept layers ----------------------------------------------------------------------
-
-    def _canvas_for(self, shot: _Shot, hurried: bool) -> Canvas:
+    def _canvas_for(
+        self, size: tuple[int, int], frame: Frame, camera: Camera, layers: Layers,
+        plot: pygame.Rect, *, hurried: bool,
+    ) -> Canvas:  # fmt: skip
         """Return the canvas for a camera; an older one for a moment, if hurried."""
-        surface, frame, camera, layers, plot = shot
-        size = surface.get_size()
-        scenario, standing_ones = frame.scenario, {layer.name for layer in standing()}
-        seen = standing_ones & {layer.name for layer in layers.seen(scenario.animation)}
-        of: list[object] = [scenario.surfaces, scenario.workspace, *scenario.addons]
-        began = b""
-        if layers.trails or "starts" in seen:
-            of, began = [scenario], b"".join(poses.tobytes() for poses in starts(frame))
-        looks = size, tuple(plot), self.painter.ui, self.painter.theme
-        key = frozenset(seen), scenario.on_exit, scenario.bounds, began, looks
-        canvas, made_of = self._canvas, self._made_of
-        if key != self._key or len(of) != len(made_of) or not all(map(is_, of, made_of)):
-            canvas = None
-        self._key, self._made_of = key, of
-        if canvas is not None and hurried and canvas.seconds > PATIENCE:
-            if canvas.shows(camera, plot) or perf_counter() - canvas.made < MAX_AGE:
+        began = b"".join(poses.tobytes() for poses in starts(frame))
+        key = layers.on, began, size, tuple(plot), self.painter.ui, self.painter.theme
+        canvas = self._canvas
+        if canvas is not None and frame.scenario is self._scenario and key == self._key:
+            young = hurried and perf_counter() - canvas.made < MAX_AGE
+            if canvas.camera == camera or (young and canvas.seconds > PATIENCE):
                 return canvas
-            wide = plot.inflate(2 * MARGIN * plot.width, 2 * MARGIN * plot.height)
-            camera, plot = camera.panned(-wide.left, -wide.top), pygame.Rect(0, 0, *wide.size)
-            size = wide.size
-        elif canvas is not None and canvas.is_exact(camera) and canvas.shows(camera, plot):
-            return canvas
-        new = Canvas(self.painter, frame, camera, layers, size, plot, memory=self.memory)
-        self._canvas = new
-        return new
+        self._scenario, self._key = frame.scenario, key
+        self._canvas = Canvas(self.painter, frame, camera, layers, size, plot)
+        return self._canvas
 
-    def _spread(self, shot: _Shot, canvas: Canvas) -> None:
-        """Draw the layers that stand still, the paths and the readings."""
-        picture = canvas.with_paths(shot.frame) if shot.layers.trails else canvas.still
-        if shot.layers.sensors and shot.frame.readings:
-            picture = self._with_sensors(picture, shot.frame, canvas)
-        dx, dy = canvas.shift(shot.camera)
-        shot.surface.blit(picture, shot.plot, shot.plot.move(-dx, -dy))
-        if shot.layers.trails and canvas.wakes is not None:
-            canvas.wakes.finish(shot.surface, shot.frame, (dx, dy))
-
-    def _enlarge(self, shot: _Shot, canvas: Canvas) -> None:
-        """Draw a canvas as another camera sees it, roughly, and the readings."""
-        surface, frame, camera, layers, plot = shot
-        last = canvas.with_paths(frame) if layers.trails else canvas.still
+    def _enlarge(
+        self, surface: pygame.Surface, last: pygame.Surface, canvas: Canvas, camera: Camera,
+        plot: pygame.Rect,
+    ) -> None:  # fmt: skip
+        """Draw the picture of a canvas as another camera sees it, roughly."""
         factor = camera.scale / canvas.camera.scale
         corner = camera.x - factor * canvas.camera.x, camera.y - factor * canvas.camera.y
         # The whole pixels of the last picture that are visible now.
@@ -291,28 +186,3 @@ class Stage:
             size = round(seen.width * factor), round(seen.height * factor)
             place = corner[0] + factor * seen.left, corner[1] + factor * seen.top
             surface.blit(pygame.transform.scale(last.subsurface(seen), size), place)
-        if layers.sensors:
-            self.painter.paint(surface, sensors(frame).shapes, camera)
-
-    def _with_sensors(
-        self, picture: pygame.Surface, frame: Frame, canvas: Canvas
-    ) -> pygame.Surface:
-        """Return a copy of a picture with the readings on it, kept until they are others."""
-        stays = all(sensor.stays for robot in frame.scenario.robots for sensor in robot.sensors)
-        sensed = frame.pose if frame.sensed is None else frame.sensed
-        read = [reading for readings in frame.readings.values() for _, reading in readings]
-        made_of = picture, frame.path, sensed, None if stays else frame.pose, *read
-        old, self._sensed_of = self._sensed_of, made_of
-        if self._sensed is None or self._sensed.get_size() != picture.get_size():
-            self._sensed = picture.copy()
-        elif len(made_of) == len(old) and all(map(is_, made_of, old)):
-            return self._sensed
-        self._sensed.set_clip(canvas.area)
-        self._sensed.blit(picture, canvas.area, canvas.area)
-        self.painter.paint(self._sensed, sensors(frame).shapes, canvas.camera)
-        return self._sensed
-
-
-def _place(name: str) -> int:
-    """Return the index of a layer in the table."""
-    return next(k for k, layer in enumerate(LAYERS) if layer.name == name)

@@ -116,18 +116,6 @@ def clip_lines(points: Float, box: Box) -> list[Float]:
     return [shapely.get_coordinates(part) for part in parts]
 
 
-def simplified(points: Float, tolerance: float) -> Float:
-    """Return a polygon (k, 2) without the corners that move its edge by no more than a tolerance.
-
-    Source: Douglas & Peucker (1973).
-    """
-    import shapely
-
-    line = shapely.simplify(shapely.linestrings(points), tolerance, preserve_topology=False)
-    corners: Float = shapely.get_coordinates(line)
-    return corners
-
-
 def _inside(points: Float, box: Box) -> bool:
     if len(points) == 0:
         return True

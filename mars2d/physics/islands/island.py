@@ -391,7 +391,7 @@ class Island:
 
     def shorten(self, h: cython.double, left: cython.double) -> cython.double:
         """Return how long of h s the next substep may be, by how gaps close and joints stretch."""
-        accuracy: Accuracy = self.accuracy
+        accuracy = self.accuracy
         for body in self.bodies:
             body.look()
         for body in self.bodies:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from mars2d.core.errors import one_line
 from mars2d.core.files import atomic_write
-from mars2d.output.pages.replay import colors, filled, page_script, page_style, player, policy
+from mars2d.output.pages.replay import colors, filled, player
 from mars2d.scenario.options import options_in_words
 from mars2d.tournaments.league import UNPROTECTED, Tournament
 from mars2d.tournaments.page.tables import (
@@ -50,7 +50,7 @@ def league_page(tournament: Tournament) -> str:
             for number, replay in [*replays.items()][:kept]
         ),
     }
-    return _page(title, filled(read("league.html"), words), read("league.js"), inside)
+    return _page(title, filled(read("league.html"), words), read("league.js"))
 
 
 def save_page(page: str, path: Path) -> None:
@@ -59,16 +59,13 @@ def save_page(page: str, path: Path) -> None:
         file.write(page.encode("utf-8", errors="replace"))
 
 
-def _page(title: str, body: str, script: str, inside: str) -> str:
-    """Return a page. script: what it runs besides. inside: the first script of its replays."""
-    script = f"(() => {{\n{read('page.js')}{script}}})();"
-    style = colors() + read("page.css")
+def _page(title: str, body: str, script: str) -> str:
+    """Return a page. script: what it runs besides."""
     words = {
-        "policy": policy([script, inside + page_script()], [style, page_style()]),
         "title": escaped(title),
-        "style": style,
+        "style": colors() + read("page.css"),
         "body": body,
-        "script": script,
+        "script": f"(() => {{\n{read('page.js')}{script}}})();",
     }
     return filled(read("page.html"), words)
 

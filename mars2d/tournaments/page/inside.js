@@ -17,7 +17,7 @@
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.altKey || event.metaKey || event.shiftKey) return;
     if (document.querySelector("dialog[open]")) return;
-    const open = document.querySelector("#layers.open, #panel:not([hidden])");
+    const open = document.querySelector("#layers:not([hidden]), #panel:not([hidden])");
     const takes = event.target.closest?.("select, input");
     const key = event.key === "Escape" ? !open : /^Arrow(Up|Down)$/.test(event.key) && !takes;
     if (!key) return;

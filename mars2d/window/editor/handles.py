@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 
 from mars2d.bodies.props.base import Prop
-from mars2d.bodies.props.box import Box
+from mars2d.bodies.props.rectangles import Box
 from mars2d.core.plane import Outline, Point, edges_of
 from mars2d.core.scene import Scene
 from mars2d.output.raster.theme import LIGHT

@@ -10,7 +10,7 @@ import pygame
 
 from mars2d.bodies.colors import prop_colors
 from mars2d.core.description import snake_case
-from mars2d.output.layers.forces import SLIP, SLIPPING
+from mars2d.output.layers.forces import SLIPPING
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
 from mars2d.window.panels.readout import (
@@ -26,7 +26,7 @@ from mars2d.window.panels.readout import (
 )
 from mars2d.window.panels.rows import Row, RowsPanel
 from mars2d.window.panels.sensorplot import TITLE, SensorPlot, plot_of
-from mars2d.window.screen.selection import Selection
+from mars2d.window.screen.picking import Selection
 from mars2d.window.widgets.words import Word, write_line
 
 LEAST = 176.0
@@ -103,7 +103,9 @@ class Inspector(RowsPanel):
         state = [Row(HEAD, partial(self._draw_name, frame, body))]
         state += [Row(ROW, partial(self._draw_row, *row)) for row in state_of(frame, body)]
         if body < min(len(robots), len(frame.effort)):
-            state.append(Row(ROW, partial(self._draw_effort, float(frame.effort[body]))))
+            effort = float(frame.effort[body])
+            said = "slips" if effort >= SLIPPING else f"{100 * effort:.0f} %"
+            state.append(Row(ROW, partial(self._draw_row, "effort", [("", said)])))
         yield self.stack(*state, gap)
         if frame.scenario.physics == "contact":
             yield self._headed("contacts", " · ".join(contacts_of(frame, body)) or "none")
@@ -164,23 +166,6 @@ class Inspector(RowsPanel):
             x = round(left + place * column) if in_columns else x
             x = self.painter.write(surface, f"{name} ", size, theme.muted, midleft=(x, y)).right
             x = self.painter.write(surface, value, size, theme.ink, midleft=(x, y)).right + gap
-
-    def _draw_effort(self, effort: float, surface: pygame.Surface, rect: pygame.Rect) -> None:
-        """Draw the effort of the drive as a bar."""
-        ui, theme = self.painter.ui, self.painter.theme
-        slips = effort >= SLIPPING
-        value = "slips" if slips else f"{100 * effort:.0f} %"
-        words = [Word("effort", theme.muted)], [Word(value, theme.ink)]
-        write_line(surface, rect, self.painter, *words)
-        left = rect.left + round(LABEL * ui)
-        bar = pygame.Rect(left, 0, rect.right - round(52 * ui) - left, round(6 * ui))
-        bar.centery = rect.centery
-        radius = bar.height // 2
-        pygame.draw.rect(surface, theme.track, bar, border_radius=radius)
-        bar.width = round(bar.width * min(effort, 1.0))
-        if bar.width > 0:
-            color = SLIP if slips else theme.effort
-            pygame.draw.rect(surface, color, bar, border_radius=radius)
 
     def _draw_heading(
         self, title: str, more: str, surface: pygame.Surface, rect: pygame.Rect

@@ -17,8 +17,8 @@ from mars2d.record.frame import Frame
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.parameters import PREFIX, Parameter
 from mars2d.window.panels.rows import Row, RowsPanel
+from mars2d.window.screen.picking import Selection
 from mars2d.window.screen.player import Player
-from mars2d.window.screen.selection import Selection
 from mars2d.window.widgets.buttons import draw_icon
 from mars2d.window.widgets.slider import Slider
 from mars2d.window.widgets.text_field import TextField
@@ -43,14 +43,10 @@ WORDS, LINES, MAX_LINES = 17.0, 2, 4
 at most."""
 LEAST_ROWS = 3
 """The rows that are seen at least."""
-DOUBLE = 0.4
-"""The longest time between the clicks of a double click, seconds."""
 EVERY = 0.1
 """The least time between two settings during a drag, seconds."""
 SHARE = 0.25
 """The largest share of the time that settings may take during a drag."""
-FAST = 10
-"""How many steps an arrow key goes with Shift."""
 TYPED = "0123456789.-e"
 """The characters of a number."""
 MAX_TYPED, TYPED_WIDTH = 12, 104.0
@@ -73,7 +69,7 @@ class ParameterPanel(RowsPanel):
     """Shows the parameters of an experiment, and of the body that is selected, as sliders.
 
     A slider is dragged, or moved by arrow keys once it was clicked; a number that is typed then is
-    taken by Enter. A double click, or the button at its right, puts it back as the file has it.
+    taken by Enter. The button at its right puts it back as the file has it.
 
     player: of the experiment; while time passes, a drag is felt at once. set_to: sets a parameter.
     """
@@ -105,7 +101,7 @@ class ParameterPanel(RowsPanel):
         self._value = 0.0  # of what is held
         self._waits = False  # whether it is to be set
         self._anew = ""  # why it needs a new start
-        self._next = self._clicked = 0.0  # when it may be set; when the last click was
+        self._next = 0.0  # when it may be set
 
     @property
     def offered(self) -> bool:
@@ -125,15 +121,11 @@ class ParameterPanel(RowsPanel):
         if experiment is not None and body is not None:
             body = body if body < len(experiment.scenario.bodies) else None
         if self._known is None or self._known[0] is not experiment or self._known[1] != body:
-            selected = body is not None and (self._known is None or self._known[1] != body)
             self._known = experiment, body
             try:
                 self._lines = [] if experiment is None else list(_lines(experiment, body))
             except InputError as error:  # of a Range of a law
                 self._lines, self.said = [Line("No parameters")], (str(error), "error")
-            if selected:  # let its sliders be seen
-                heading = max(k for k, line in enumerate(self._lines) if line.parameter is None)
-                self.scroll = sum(line.height for line in self._lines[:heading])
             if self.focus not in {line.parameter.name for line in self._lines if line.parameter}:
                 self.leave()
         return self._lines
@@ -206,8 +198,7 @@ class ParameterPanel(RowsPanel):
             return f"{focused.name}: {between}; {focused.default:.6g} in the file", "info"
         if self._selection.body is None:
             return "select a robot or prop for its mass, friction and drive", "info"
-        more = "; turn the wheel for more" if self.cut else ""
-        return f"drag a slider, or click it and type a number{more}", "info"
+        return "drag a slider, or click it and type a number", "info"
 
     # -- the mouse ----------------------------------------------------------------------------
 
@@ -225,20 +216,17 @@ class ParameterPanel(RowsPanel):
     def _press(self, pixel: Pixel) -> bool:
         """Press a button or a slider; return whether a slider is held."""
         name = next((n for n, place in self.places.items() if place.collidepoint(pixel)), None)
-        before, now = self._clicked, self._clock()
-        again = name is not None and name == self.focus and now - before < DOUBLE
         self.leave()
-        self.focus, self.said, self._clicked = name, ("", "info"), now
+        self.focus, self.said = name, ("", "info")
         if name is None:
             return False
-        if again or (name in self.resets and self.resets[name].collidepoint(pixel)):
-            self._clicked = 0.0
+        if name in self.resets and self.resets[name].collidepoint(pixel):
             self._set(name, self.parameters()[name].default)
             return False
         if not self._sliders[name].hit(pixel):
             return False
         self._held, self._value = name, self.parameters()[name].value
-        self._waits, self._anew, self._next = False, "", now
+        self._waits, self._anew, self._next = False, "", self._clock()
         self._drag(pixel[0])
         return True
 
@@ -306,8 +294,7 @@ class ParameterPanel(RowsPanel):
             return True
         name = pygame.key.name(event.key) if event.type == pygame.KEYDOWN else ""
         if name in ("left", "right"):
-            fast = FAST if event.mod & pygame.KMOD_SHIFT else 1
-            step = parameter.step * fast * (1 if name == "right" else -1)
+            step = parameter.step * (1 if name == "right" else -1)
             self._set(parameter.name, parameter.nearest(parameter.value + step))
         elif name in ("up", "down"):
             self._focus_next(parameter.name, 1 if name == "down" else -1)

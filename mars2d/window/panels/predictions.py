@@ -24,8 +24,6 @@ OFTEN = 0.2
 """The shortest time between two readings while the run goes on, seconds."""
 SHARE = 0.04
 """The largest share of the time that `checks` may take."""
-DEAR = 0.1
-"""Where `checks` takes longer, the numbers are read only when time stands still, seconds."""
 
 TITLES, ROW, LINE = 22.0, 40.0, 17.0
 """The heights of the columns' titles, of a prediction and of a line of words, points."""
@@ -70,7 +68,7 @@ class Predictions(RowsPanel):
         self.reading = Reading(0.0, False, (), None)
         self._timeline, self._clock = timeline, clock
         self._read: tuple[World, int] | None = None
-        self._next, self._cost = -math.inf, 0.0
+        self._next = -math.inf
 
     @property
     def offered(self) -> bool:
@@ -84,14 +82,12 @@ class Predictions(RowsPanel):
             return False
         world = timeline.world
         of = world, world.iteration
-        same = self._read is not None and self._read == of
-        if same or (playing and not world.over and (now < self._next or self._cost > DEAR)):
+        if self._read == of or (playing and not world.over and now < self._next):
             return False
         self._read = of
         record = world.record
         found, error = timeline.experiment.predictions_so_far(record)
-        self._cost = self._clock() - now
-        self._next = now + max(OFTEN, self._cost / SHARE)
+        self._next = now + max(OFTEN, (self._clock() - now) / SHARE)
         at = float(record.time[-1]) if len(record) else 0.0
         self.reading = Reading(at, record.finished, found, error)
         return True

@@ -1,4 +1,4 @@
-"""The inspector's plots of sensors: readings over time, or over bearings."""
+"""The inspector's sensors: their numbers, colours, or bars."""
 
 from __future__ import annotations
 
@@ -8,28 +8,22 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pygame
-from numpy.typing import NDArray
 
 from mars2d.core.quantity import Quantity
 from mars2d.output.raster.brushes import rgba
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Float, Frame
 from mars2d.sensors.base import Sensor
-from mars2d.window.panels.trace import span_of
-from mars2d.window.widgets.plot import Limits, draw_curve, polylines
 from mars2d.window.widgets.words import Word, write_line
 
-ROW, CELLS, BARS = 24.0, 18.0, 40.0
-"""The heights of a line over time, colours and bars, points."""
+ROW, CELLS, BARS = 18.0, 18.0, 40.0
+"""The heights of a number, colours and bars, points."""
 
 TITLE = 21.0
 """The height of a plot's title, points."""
 
 MAX_LINES = 6
-"""How many numbers are drawn as lines over time; more are drawn as bars."""
-
-NAME, VALUE = 46.0, 84.0
-"""The room for the name and the value beside a line, points."""
+"""How many numbers are written; more are drawn as bars."""
 
 
 class SensorPlot(NamedTuple):
@@ -40,110 +34,45 @@ class SensorPlot(NamedTuple):
     draw: Callable[[Painter, pygame.Surface, pygame.Rect], None]
 
 
-class History(NamedTuple):
-    """Readings (k, ...) of the last control steps, up to the present.
-
-    first, last: the places of the first and the last on the time axis, from 0 to 1.
-    """
-
-    values: NDArray[Any]
-    first: float
-    last: float
-
-
 def plot_of(frame: Frame, robot: int, sensor: Sensor, reading: Any) -> SensorPlot:
-    """Return the plot of a sensor's readings on a robot: lines over time, colours, or bars.
+    """Return the plot of a sensor's reading on a robot: numbers, colours, or bars.
 
     Bars are those of now, from left to right as the robot sees where they are of beams.
     """
     now = np.asarray(reading)
     quantities = sensor.quantities or (Quantity("value"),)
-    past, color = history(frame, robot, sensor, now), frame.scenario.colors[robot]
+    color = frame.scenario.colors[robot]
     if quantities[0].kind == "color" and now.shape[-1:] == (3,):
-        strip = now[None, ::-1] if now.ndim == 2 else past.values[None]
+        strip = now[None, ::-1] if now.ndim == 2 else now[None, None]
         return SensorPlot(sensor, CELLS, _Cells(strip))
-    numbers = past.values.reshape(len(past.values), -1).astype(float)
-    if numbers.shape[1] <= MAX_LINES:
-        named = quantities if len(quantities) == numbers.shape[1] else None
-        lines = _Lines(past._replace(values=numbers), named, quantities[0], color)
-        return SensorPlot(sensor, ROW * numbers.shape[1], lines)
+    numbers = now.ravel().astype(float)
+    if len(numbers) <= MAX_LINES:
+        lines = _Lines(numbers, quantities)
+        return SensorPlot(sensor, ROW * len(numbers), lines)
     beams = np.shape(getattr(sensor, "angles", ())) == now.shape
-    return SensorPlot(sensor, BARS, _Bars(numbers[-1, ::-1] if beams else numbers[-1], color))
-
-
-def history(frame: Frame, robot: int, sensor: Sensor, now: NDArray[Any]) -> History:
-    """Return the recent readings of a sensor on a robot; now: the present one."""
-    past = frame.reading_path(sensor.key, robot)
-    if past is None or past.shape[1:] != now.shape:
-        return History(now[None], 1.0, 1.0)
-    dt = frame.scenario.sampling_time
-    shown = max(1, round(span_of(dt) / dt))
-    values = np.concatenate([past[-shown:], now[None]])
-    begin = max(len(past) - shown, 0)
-    end = max(len(past), shown)
-    return History(values, (begin - end) / shown + 1, (len(past) - end) / shown + 1)
+    return SensorPlot(sensor, BARS, _Bars(numbers[::-1] if beams else numbers, color))
 
 
 @dataclass(frozen=True, slots=True)
 class _Lines:
-    """Numbers, as a line over time each."""
+    """Numbers, each in a line with its name."""
 
-    history: History
-    named: tuple[Quantity, ...] | None
-    quantity: Quantity
-    color: str
+    values: Float
+    quantities: tuple[Quantity, ...]
 
     def __call__(self, painter: Painter, surface: pygame.Surface, rect: pygame.Rect) -> None:
-        ui, theme = painter.ui, painter.theme
-        values, height = self.history.values, round(ROW * ui)
-        several = values.shape[1] > 1
-        name_room = round(NAME * ui) if several else 0
-        for k in range(values.shape[1]):
-            quantity = self.named[k] if self.named else self.quantity
+        height, named = round(ROW * painter.ui), len(self.quantities) == len(self.values)
+        for k, value in enumerate(self.values.tolist()):
+            quantity = self.quantities[k if named else 0]
             row = pygame.Rect(rect.left, rect.top + k * height, rect.width, height)
-            name = quantity.name if self.named else f"[{k}]"
-            names = [Word(name, theme.text, 12)] if several else []
-            value = Word(_in_words(float(values[-1, k]), quantity), theme.ink, 12)
-            write_line(surface, row, painter, names, [value])
-            area = pygame.Rect(
-                row.left + name_room, row.top + 2,
-                row.width - name_room - round(VALUE * ui), height - 4,
-            )  # fmt: skip
-            _line(surface, area, painter, self.history, k, quantity, self.color)
-
-
-def _line(
-    surface: pygame.Surface,
-    area: pygame.Rect,
-    painter: Painter,
-    history: History,
-    k: int,
-    quantity: Quantity,
-    color: str,
-) -> None:
-    """Draw number k over time, scaled to its range."""
-    values = history.values[:, k]
-    surface.fill(painter.theme.track, (area.left, area.bottom, area.width, 1))
-    finite = values[np.isfinite(values)]
-    if not finite.size:
-        return
-    low, high = float(finite.min()), float(finite.max())
-    least = 0.02 * max(abs(low), abs(high), 0.05)
-    if high - low < least:
-        low, high = (low + high - least) / 2, (low + high + least) / 2
-    limits, inner = Limits(0.0, 1.0, low, high), area.inflate(0, -4)
-    places = np.linspace(history.first, history.last, len(values))
-    lines = polylines(inner, limits, places, values, wraps=quantity.kind == "angle")
-    ink = painter.theme.shade(color)
-    draw_curve(surface, painter, lines, ink, 1.6)
-    if np.isfinite(values[-1]):
-        (point,) = limits.pixels(inner, places[-1:], values[-1:]).tolist()
-        pygame.draw.aacircle(surface, ink, point, 2.4 * painter.ui)
+            name = Word(quantity.name if named else f"[{k}]", painter.theme.text, 12)
+            number = Word(_in_words(value, quantity), painter.theme.ink, 12)
+            write_line(surface, row, painter, [name], [number])
 
 
 @dataclass(frozen=True, slots=True)
 class _Cells:
-    """Colours side by side: of pixels, or of one pixel over time; nan is drawn empty."""
+    """Colours side by side; nan is drawn empty."""
 
     colors: Float
 

@@ -103,22 +103,15 @@ class Marks:
         """Start with nothing read."""
         self._timeline = timeline
         self._world: World | None = None
-        self._seen = 0  # rows of the contact log
         self._next = 0.0
         self._touched: list[int] = []
 
     def rows(self) -> Mapping[MarkKind, Sequence[int]]:
         """Return the rows of each kind in ascending order; collisions may lag by a moment."""
-        timeline, world = self._timeline, self._timeline.world
-        if world is not self._world:
-            self._world, self._seen, self._next, self._touched = world, 0, 0.0, []
-        now = time.monotonic()
-        if now >= self._next:
-            self._next = now + MARK_INTERVAL
-            contacts = world.frame.contact_log()
-            new, self._seen = contacts[self._seen :], len(contacts)
-            rows = meetings(new, world.sampling_time)
-            self._touched += [row for row in rows if row not in self._touched[-1:]]
+        timeline, world, now = self._timeline, self._timeline.world, time.monotonic()
+        if world is not self._world or now >= self._next:
+            self._world, self._next = world, now + MARK_INTERVAL
+            self._touched = meetings(timeline.contacts, world.sampling_time)
         return {
             "collision": self._touched,
             "hand": sorted({each.row for each in world.operator.log}),

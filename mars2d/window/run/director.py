@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
-import numpy as np
 import pygame
 
 from mars2d.core.errors import InputError, Mars2dError
@@ -23,9 +22,6 @@ from mars2d.world.world import World
 
 if TYPE_CHECKING:
     from mars2d.window.editor import Editor, Outcome
-
-POSE_DIGITS = 6
-"""The decimals of poses that are saved, of metres and radians."""
 
 RECORDING = "this is a recording: it can be looked at, not changed"
 
@@ -243,21 +239,6 @@ class Director:
             self._notes.say(f"bodies are shown where they were at the start: {error}", "warning")
             return frame.scenario
 
-    def scenario_to_save(self) -> Scenario:
-        """Return the scenario with all bodies at their poses of now, in short numbers.
-
-        What has moved is rounded to micrometres and microradians, so that what is left by rounding
-        of a 0 is 0 again. Where bodies would then overlap, nothing is rounded.
-        """
-        frame = self._player.frame
-        poses = frame.all_poses
-        drawn = np.array([body.pose for body in frame.scenario.bodies]).T
-        short = np.where(poses == drawn, poses, np.round(poses, POSE_DIGITS) + 0.0)
-        try:
-            return with_poses(frame.scenario, short)
-        except InputError:
-            return self.scenario_now()
-
     def editor(self, looks: Looks) -> Editor | None:
         """Return an editor of the scenario as it is now."""
         from mars2d.window.editor import Editor  # few runs need it, and it is slow to import
@@ -321,4 +302,4 @@ class Director:
 
 def _turns(robot: Robot) -> bool:
     """Return whether a robot can turn as it moves in any direction."""
-    return len(robot.drive.inputs) > 2
+    return robot.drive.second_stick

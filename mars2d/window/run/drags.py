@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from math import atan2, cos, hypot, pi, radians, sin
+from math import atan2, cos, hypot, pi, sin
 from typing import Literal
 
 import numpy as np
-import pygame
 
 from mars2d.bodies.rigid import Rigid, Triple
 from mars2d.core.plane import Point
@@ -26,8 +25,6 @@ from mars2d.world.world import World
 Act = Callable[[World], None]
 """Something that is done to a world."""
 
-NOTCH = radians(15)
-"""With Ctrl, angles are multiples of this."""
 CHECK_INTERVAL = 0.05
 """How often a new place is checked for obstacles at most, seconds."""
 
@@ -73,7 +70,7 @@ class Pull:
         self.newtons = 0.0
         self._world: World | None = None  # in which the body is pulled
 
-    def move(self, frame: Frame, point: Point, mods: int) -> None:  # noqa: ARG002
+    def move(self, frame: Frame, point: Point) -> None:  # noqa: ARG002
         """Pull towards a point."""
         self.target = point
 
@@ -107,7 +104,10 @@ class Pull:
 
 
 class Placement:
-    """The base of drags while time stands still: the body gets its new pose at the end."""
+    """Moves a body while time stands still, or turns it; at the end it gets its new pose.
+
+    turns: whether it is turned towards the pointer. clock: seconds.
+    """
 
     keeps = False
 
@@ -118,11 +118,23 @@ class Placement:
         frame: Frame,
         body: int,
         point: Point,
+        *,
+        turns: bool,
     ) -> None:
-        self.body, self._do, self._clock = body, do, clock
+        self.body, self._do, self._clock, self._turns = body, do, clock, turns
         self.before = self.now = frame.body_pose(body)
-        self.start = point
+        self._start = self._pointer = point
         self._fault, self._checked, self._at = "", -1.0, self.before
+
+    def move(self, frame: Frame, point: Point) -> None:  # noqa: ARG002
+        """Move the body by as much as the pointer, or turn it there the shorter way round."""
+        x, y, theta = self.before
+        self._pointer = point
+        if self._turns:
+            angle = atan2(point[1] - y, point[0] - x)
+            self.now = x, y, theta + (angle - theta + pi) % (2 * pi) - pi
+        else:
+            self.now = x + point[0] - self._start[0], y + point[1] - self._start[1], theta
 
     def pose(self, frame: Frame) -> Triple | None:  # noqa: ARG002
         """Return the pose at the pointer."""
@@ -138,77 +150,37 @@ class Placement:
         now = self._clock()
         if self._at != self.now and now - self._checked >= CHECK_INTERVAL:
             self._checked, self._at = now, self.now
-            there = with_pose(frame, self.body, self.now)
-            poses = there.all_poses
+            poses = with_pose(frame, self.body, self.now).all_poses
             self._fault = obstruction(frame.scenario, poses, self.body)
         return self._fault
 
     def draw(self, scene: Scene, frame: Frame, camera: Camera) -> None:
         """Draw the former place, and the new one with its fault."""
-        fault = self.fault(frame)
+        fault, scenario, n = self.fault(frame), frame.scenario, len(frame.scenario.robots)
         color = BAD if fault else GOOD
         there = with_pose(frame, self.body, self.now)
         draw_ring(scene, there, self.body, color, 2.5)
         words = f"would {fault}" if fault else self.words()
         draw_label(scene, there, camera, self.body, words, color, "below")  # names are above
-        self.draw_way(scene, frame.scenario, color)
-
-    def words(self) -> str:
-        """Return the new pose in words."""
-        raise NotImplementedError
-
-    def draw_way(self, scene: Scene, scenario: Scenario, color: str) -> None:
-        """Draw how the body gets from its former pose to the new one."""
-
-
-class Move(Placement):
-    """Moves a body."""
-
-    def move(self, frame: Frame, point: Point, mods: int) -> None:  # noqa: ARG002
-        """Move the body by as much as the pointer."""
-        dx, dy = point[0] - self.start[0], point[1] - self.start[1]
-        self.now = self.before[0] + dx, self.before[1] + dy, self.before[2]
-
-    def words(self) -> str:
-        """Return the position."""
-        return f"({self.now[0]:.2f}, {self.now[1]:.2f}) m".replace("-", "\N{MINUS SIGN}")
-
-    def draw_way(self, scene: Scene, scenario: Scenario, color: str) -> None:
-        """Draw the body hollow at its former place, and a line from there."""
-        ghost, n = np.array(self.before), len(scenario.robots)
+        (x, y, theta), ghost = self.now, np.array(self.before)
+        if self._turns:
+            way = hypot(self._pointer[0] - x, self._pointer[1] - y)
+            end = x + way * cos(theta), y + way * sin(theta)
+            scene.line([(x, y), end], stroke=faded(color, 0.7), width=1.5)
+            scene.circle(end, 0.0, fill=color, stroke=HALO, width=1.5, pixels=3.5)
+            return
         if self.body < n:
             draw_robot(scene, scenario.robots[self.body], ghost, None, faded(color, 0.6))
         else:
             draw_prop(scene, scenario.props[self.body - n], ghost, color, hollow=True)
-        scene.line([self.before[:2], self.now[:2]], stroke=faded(color, 0.5), width=1.2)
-
-
-class Turn(Placement):
-    """Turns a body towards the pointer."""
-
-    pointer: Point | None = None
-
-    def move(self, frame: Frame, point: Point, mods: int) -> None:  # noqa: ARG002
-        """Turn the body towards a point, the shorter way round."""
-        x, y, theta = self.before
-        self.pointer = point
-        angle = atan2(point[1] - y, point[0] - x)
-        if mods & pygame.KMOD_CTRL:
-            angle = NOTCH * round(angle / NOTCH)
-        self.now = x, y, theta + (angle - theta + pi) % (2 * pi) - pi
+        scene.line([self.before[:2], (x, y)], stroke=faded(color, 0.5), width=1.2)
 
     def words(self) -> str:
-        """Return the heading."""
-        return in_both_units((self.now[2] + pi) % (2 * pi) - pi)
-
-    def draw_way(self, scene: Scene, scenario: Scenario, color: str) -> None:  # noqa: ARG002
-        """Draw the new heading."""
-        if self.pointer is not None:
-            x, y, theta = self.now
-            way = hypot(self.pointer[0] - x, self.pointer[1] - y)
-            end = x + way * cos(theta), y + way * sin(theta)
-            scene.line([(x, y), end], stroke=faded(color, 0.7), width=1.5)
-            scene.circle(end, 0.0, fill=color, stroke=HALO, width=1.5, pixels=3.5)
+        """Return the new heading, or the new position."""
+        x, y, theta = self.now
+        if self._turns:
+            return in_both_units((theta + pi) % (2 * pi) - pi)
+        return f"({x:.2f}, {y:.2f}) m".replace("-", "\N{MINUS SIGN}")
 
 
 # -- poses and points -------------------------------------------------------------------------
@@ -250,13 +222,15 @@ def within(rigid: Rigid, point: Point) -> Point:
 # -- marks ------------------------------------------------------------------------------------
 
 
-def draw_ring(scene: Scene, frame: Frame, body: int, color: str, width: float) -> None:
-    """Draw a ring round a body; width: of its line, points."""
+def draw_ring(
+    scene: Scene, frame: Frame, body: int, color: str, width: float, far: float = 6.0
+) -> None:
+    """Draw a ring round a body; width: of its line, far: its least radius, points."""
     center, radius = bounding_circle(
         frame.scenario.bodies[body].shape, np.array(frame.body_pose(body))
     )
     for stroke, more in ((HALO, 2.0), (color, 0.0)):
-        scene.circle(center, radius, stroke=stroke, width=width + more, pixels=6.0)
+        scene.circle(center, radius, stroke=stroke, width=width + more, pixels=far)
 
 
 def draw_label(

@@ -1,16 +1,24 @@
-"""Why a run has ended, and what a person can do then."""
+"""Why a run has ended, what a person can do then, and the file in the person's own editor."""
 
 from __future__ import annotations
 
+import os
+import shlex
+import sys
+from pathlib import Path
 from subprocess import Popen
 
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.output.excerpt import Excerpt, excerpt_of
 from mars2d.output.raster.bars import Banner
-from mars2d.window.run.text_editor import open_at
 from mars2d.window.screen.player import Player
 from mars2d.window.widgets.notes import Notes
 from mars2d.world.timeline import Timeline
+
+GOES_TO = ("code", "code-insiders", "codium", "cursor", "windsurf")
+"""Editors that take ``--goto file:line``."""
+COLON = ("subl", "zed", "hx", "pulsar")
+"""Editors that take ``file:line``. All others are given ``+line file``, as vi and nano are."""
 
 HINT = "← looks back   R restarts   Ctrl Q leaves"
 AGAIN = "R plays again   Ctrl Q leaves"
@@ -61,3 +69,27 @@ class Ending:
             return None
         hint = AGAIN if self.of_game else HINT
         return Banner(player.frame.over_message or "The experiment is over.", hint)
+
+
+def command_for(file: Path, line: int) -> list[str]:
+    """Return the command that opens a file: $VISUAL, $EDITOR, or what the system has for it."""
+    words = shlex.split(os.environ.get("VISUAL") or os.environ.get("EDITOR") or "")
+    if not words:
+        system = {"darwin": ["open"], "win32": ["cmd", "/c", "start", ""]}
+        return [*system.get(sys.platform, ["xdg-open"]), str(file)]
+    name = Path(words[0]).stem
+    if name in GOES_TO:
+        return [*words, "--goto", f"{file}:{line}"]
+    return [*words, f"{file}:{line}"] if name in COLON else [*words, f"+{line}", str(file)]
+
+
+def open_at(file: Path, line: int) -> Popen[bytes]:
+    """Open a file at a line, and don't wait. Raises InputError where there is no such editor."""
+    command = command_for(file, line)
+    try:
+        return Popen(command)
+    except OSError as error:
+        raise InputError(
+            f"{command[0]} can't be started ({error.strerror}): set VISUAL to your editor, such as "
+            "VISUAL=code"
+        ) from None

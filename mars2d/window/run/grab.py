@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from contextlib import suppress
 from math import dist
 from typing import Literal
 
@@ -12,29 +11,26 @@ import pygame
 
 from mars2d.core.errors import InputError, LawError
 from mars2d.core.plane import Point
-from mars2d.core.scene import Anchor, Scene, Shape, faded
+from mars2d.core.scene import Scene, Shape, faded
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.theme import LIGHT
 from mars2d.record.frame import Frame
 from mars2d.window.run.drags import (
     GOOD,
-    HALO,
-    LABEL,
     Act,
-    Move,
+    Placement,
     Pull,
-    Turn,
     draw_label,
     draw_ring,
     local_point,
     with_pose,
 )
 from mars2d.window.run.push import Aim
-from mars2d.window.screen.picking import Finder, Hover
+from mars2d.window.screen.picking import body_at
 from mars2d.world.operator import fixed, forceless
 
 Pixel = tuple[int, int]
-Drag = Pull | Aim | Move | Turn
+Drag = Pull | Aim | Placement
 """A drag of the mouse that has begun on a body."""
 Kind = Literal["carry", "push", "turn"]
 
@@ -59,27 +55,15 @@ class Grab:
     ) -> None:
         self._change, self._say, self._clock = change, say, clock
         self.click = CLICK  # pixels
-        self._finder = Finder()
-        self._hover: Hover | None = None
+        self.over: int | None = None  # the body under the pointer, of `Scenario.bodies`
         self._pressed: tuple[Pixel, int, Kind, float] | None = None  # pixel, body, kind, since
         self._drag: Drag | None = None
         self._running = False  # when the drag began
         self._grip: Point = (0.0, 0.0)  # where the body was pressed, in its own frame
         self._pixel: Pixel = (0, 0)
         self._inside = False  # the picture
-        self._cursor = pygame.SYSTEM_CURSOR_ARROW
 
     # -- events ---------------------------------------------------------------------------------
-
-    @property
-    def over(self) -> int | None:
-        """The body under the pointer, by its index in `Scenario.bodies`."""
-        return None if self._hover is None else self._hover.body
-
-    @property
-    def name(self) -> str:
-        """The name of the thing under the pointer, or ""."""
-        return "" if self._hover is None else self._hover.name
 
     @property
     def busy(self) -> bool:
@@ -93,17 +77,15 @@ class Grab:
             self._begin(frame, camera, running)
         point = _world(camera, pixel)
         if self._drag is not None:
-            self._drag.move(frame, point, _mods())
+            self._drag.move(frame, point)
         else:
-            self._hover = self._finder.find(frame, point, self.click / camera.scale)
-        self._show_cursor()
+            self.over = body_at(frame, point, self.click / camera.scale)
 
     def leave(self) -> None:
         """Move the pointer out of the picture; a drag goes on."""
         self._inside = False
         if not self.busy:
-            self._hover = None
-        self._show_cursor()
+            self.over = None
 
     def press(
         self, frame: Frame, camera: Camera, pixel: Pixel, button: int, mods: int, running: bool
@@ -130,7 +112,7 @@ class Grab:
         self._pressed = None
         if self._drag is not None:
             drag, self._drag = self._drag, None
-            drag.move(frame, _world(camera, pixel), _mods())
+            drag.move(frame, _world(camera, pixel))
             drag.end()
         self.move(frame, camera, pixel, running)
         return not clicked
@@ -142,7 +124,7 @@ class Grab:
         if self._pressed is not None and running and self._clock() - self._pressed[3] > LONG:
             self._begin(frame, camera, running)
         if self._drag is not None:
-            self._drag.move(frame, _world(camera, self._pixel), _mods())
+            self._drag.move(frame, _world(camera, self._pixel))
         elif self._inside:
             self.move(frame, camera, self._pixel, running)
 
@@ -151,7 +133,6 @@ class Grab:
         drag, self._drag, self._pressed = self._drag, None, None
         if drag is not None and drag.keeps:
             drag.end()
-        self._show_cursor()
 
     def _begin(self, frame: Frame, camera: Camera, running: bool) -> None:
         """Begin the drag that the held button asks for, if it is possible."""
@@ -172,8 +153,8 @@ class Grab:
         elif running:
             self._drag = Pull(self._do, scenario, body, self._grip, start)
         else:
-            placement = Move if kind == "carry" else Turn
-            self._drag = placement(self._do, self._clock, frame, body, start)
+            turns = kind == "turn"
+            self._drag = Placement(self._do, self._clock, frame, body, start, turns=turns)
 
     def _do(self, act: Act) -> bool:
         """Do something to the world; show an InputError, and end a pull that is refused."""
@@ -200,54 +181,21 @@ class Grab:
     def marks(
         self, frame: Frame, camera: Camera, *, named: bool = False, more: str = ""
     ) -> list[Shape]:
-        """Return shapes that show the drag, or the thing under the pointer.
+        """Return shapes that show the drag, or the body under the pointer.
 
         named: whether all bodies are drawn with their names. more: said of the body under it.
         """
         scene = Scene()
         if self._drag is not None:
             self._drag.draw(scene, frame, camera)
-        elif self._hover is not None:
-            hover = self._hover
-            if more and hover.body is not None:
-                hover, named = hover._replace(name=f"{hover.name}  {more}"), False
-            _draw_hover(scene, frame, camera, hover, self._pixel, named=named)
-        return scene.shapes
-
-    def _show_cursor(self) -> None:
-        """Set the pointer's shape."""
-        cursor = pygame.SYSTEM_CURSOR_ARROW
-        if self._drag is not None:
-            cursor = pygame.SYSTEM_CURSOR_SIZEALL
         elif self.over is not None:
-            cursor = pygame.SYSTEM_CURSOR_HAND
-        if cursor != self._cursor and pygame.display.get_init():
-            self._cursor = cursor
-            with suppress(pygame.error):  # not every screen has all cursors
-                pygame.mouse.set_cursor(cursor)
-
-
-def _mods() -> int:
-    """Return the modifier keys that are held; none without a window."""
-    return pygame.key.get_mods() if pygame.display.get_init() else 0
+            draw_ring(scene, frame, self.over, faded(GOOD, 0.8), 1.5)
+            if more or not named:
+                name = f"{frame.scenario.bodies[self.over].name}  {more}".strip()
+                draw_label(scene, frame, camera, self.over, name, LIGHT.ink)
+        return scene.shapes
 
 
 def _world(camera: Camera, pixel: Pixel) -> Point:
     ((x, y),) = camera.to_world([pixel]).tolist()
     return x, y
-
-
-def _draw_hover(
-    scene: Scene, frame: Frame, camera: Camera, hover: Hover, pixel: Pixel, *, named: bool
-) -> None:
-    """Draw the name of the thing under the pointer, and a ring round it if it is a body."""
-    if hover.body is not None:
-        draw_ring(scene, frame, hover.body, faded(GOOD, 0.8), 1.5)
-        if not named:
-            draw_label(scene, frame, camera, hover.body, hover.name, LIGHT.ink)
-        return
-    xmin, xmax, _, _ = frame.scenario.bounds
-    left = _world(camera, pixel)[0] < (xmin + xmax) / 2  # the label lies towards the middle
-    beside = _world(camera, (pixel[0] + (12 if left else -12), pixel[1]))
-    side: Anchor = "left" if left else "right"
-    scene.text(beside, hover.name, color=LIGHT.ink, size=LABEL, anchor=side, halo=HALO)

@@ -92,7 +92,6 @@ DO = (
     _action("undo", "Ctrl Z", "undo the last manual action"),
     _action("picture", "P", "save a picture", "Ctrl S"),
     _action("film", "V", "start and stop a film"),
-    _action("scenario", "C", "save the scenario as a file, and copy it"),
     _action("help", "F1", "all keys on and off"),
     _action("escape", "Esc", "close the menu or the help, let go, deselect"),
     LEAVE,

@@ -53,14 +53,14 @@ def entries_of_body(frame: Frame, body: int, actions: Actions, *, live: bool) ->
 
 
 def entries_of_place(
-    point: Point, thing: str, actions: Actions, measure: Callable[[Point], object], *, live: bool
+    point: Point, actions: Actions, measure: Callable[[Point], object], *, live: bool
 ) -> list[Entry]:
-    """Return what can be done at a point [m] of the floor, or of the thing of this name.
+    """Return what can be done at a point [m] of the floor.
 
     measure: begins to measure there. live: whether the run can be changed.
     """
     entries = [
-        Entry(thing or f"({point[0]:.3g}, {point[1]:.3g}) m"),
+        Entry(f"({point[0]:.3g}, {point[1]:.3g}) m"),
         Entry("Show all", actions["fit"], "F"),
         Entry("Measure from here", lambda: measure(point), "F8"),
         Entry("Stopwatch", actions["stopwatch"], "F9"),

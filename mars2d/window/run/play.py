@@ -6,22 +6,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
 from mars2d.addons.contest import Contest, wins
 from mars2d.bodies.drives.base import Drive
-from mars2d.record.frame import Frame
-from mars2d.record.interventions import Steer
-from mars2d.scenario.examples import examples, experiment_name
-from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.law_reference import Reference
 from mars2d.scenario.roles import contests_of, role_of, roles_of
 from mars2d.window.run.director import Director
 from mars2d.window.run.driver import Driver
-from mars2d.window.run.scores import Scores, Tally
-from mars2d.window.screen.memory import Memory
 from mars2d.window.screen.player import Player
-from mars2d.world.record import Record
 from mars2d.world.teleop import Stick
 
 WAYS = (Stick(0, 1), Stick(-1, 0), Stick(0, -1), Stick(1, 0))
@@ -56,28 +47,18 @@ class Choice:
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """How a game has ended: for the people, in a few words, and the robots that have won.
-
-    news: what is new about it, such as a best time, or why it does not count; or "". faster: by how
-    much the next one is played faster.
-    """
+    """How a game has ended, in a few words; faster: by how much the next one is played faster."""
 
     words: str
-    winners: tuple[int, ...]
-    news: str = ""
     faster: float = 1.0
 
 
 class Play:
-    """A game in a window. Without seats, people still choose their roles.
+    """A game in a window. Without seats, people still choose their roles."""
 
-    game: its name and options, for the scores.
-    """
-
-    def __init__(self, player: Player, director: Director, memory: Memory, game: str) -> None:
+    def __init__(self, player: Player, director: Director) -> None:
         """Start with nobody seated; `begin` seats people and counts down."""
         self._player, self._director = player, director
-        self._scores, self._both = Scores(memory, game), Scores(memory, f"{game}, two people")
         self._slowest = player.speed
         self.seats: tuple[Seat, ...] = ()
         self.counting = 0.0  # seconds to go
@@ -163,46 +144,23 @@ class Play:
         return timeline is not None and timeline.world.over
 
     def _ended(self) -> Result | None:
-        """Return how the game has ended, and note it in the scores."""
+        """Return how the game has ended."""
         timeline, contest = self._director.timeline, self.contest
         if timeline is None:
             return None
         record = timeline.record
         if contest is None or not len(record):
-            return Result(record.over_message, ())
+            return Result(record.over_message)
         winner = contest.outcome(record).winner
-        winners = roles_of(record.scenario).get(winner or "", ())
         mine = [seat for seat in self.seats if seat.role]
-        news = self._noted(record, winner, mine)
         if winner is None:
-            return Result("A draw", winners, news)
+            return Result("A draw")
         if len(self.seats) > 1 or not mine:
             words = wins(winner)
-            return Result(words[:1].upper() + words[1:], winners, news)
+            return Result(words[:1].upper() + words[1:])
         if winner == mine[0].role:
-            return Result("You win", winners, news, FASTER)
-        return Result("You lose", winners, news, 1 / FASTER)
-
-    def _noted(self, record: Record, winner: str | None, seats: Sequence[Seat]) -> str:
-        """Note an end in the scores; return the news, or why it does not count."""
-        timeline = self._director.timeline
-        others = [act for act in record.interventions if not isinstance(act, Steer) or act.row]
-        if others or timeline is None or timeline.branches:
-            return "Not counted: more was changed than the people's robots."
-        over = len(record) > record.scenario.last_iteration
-        time, news = None if over else float(record.time[-1]), ""
-        for seat in seats:
-            won = None if winner is None else winner == seat.role
-            before = self._scores_of(seats).add(seat.role, won, time)
-            news = news or _news(before, won, time)
-        return news
-
-    def _scores_of(self, seats: Sequence[Seat]) -> Scores:
-        return self._scores if len(seats) == 1 else self._both
-
-    def tally(self, role: str) -> Tally:
-        """Return the scores of a role, alone or as two people."""
-        return self._scores_of(self.seats).of(role)
+            return Result("You win", FASTER)
+        return Result("You lose", 1 / FASTER)
 
     # -- how it stands ------------------------------------------------------------------------
 
@@ -220,24 +178,6 @@ class Play:
             return {}
         pairs = zip(score.items(), contest.scored, strict=False)
         return {role: f"{points:g} {what}".strip() for (role, points), what in pairs}
-
-    def distance(self, frame: Frame) -> float | None:
-        """Return the distance [m] of the nearest hunter and hunted one, middle to middle.
-
-        Robots that are out of the game do not count, and of those in a single person's role only
-        the person's own, if it hunts or is hunted. None if there are no two.
-        """
-        timeline, contest = self._director.timeline, self.contest
-        if timeline is None or contest is None:
-            return None
-        held = timeline.world.operator.held
-        own = [seat.robot for seat in self.seats if len(self.seats) == 1]
-        players = contest.players(frame.scenario)
-        teams = [[robot for robot in team if robot in own] or [*team] for team in players]
-        free = [[robot for robot in team if robot not in held] for team in teams]
-        one, other = free if all(free) else teams
-        apart = frame.pose[:2, one, None] - frame.pose[:2, None, other]
-        return float(np.hypot(*apart).min())
 
     @property
     def task(self) -> str:
@@ -262,31 +202,3 @@ def _live_keys(drive: Drive, driver: Driver) -> tuple[str, ...]:
     rest = Stick().command(drive)
     pairs = zip(driver.keys.labels, WAYS, strict=True)
     return tuple(label for label, way in pairs if way.command(drive) != rest)
-
-
-def _news(before: Tally, won: bool | None, time: float | None) -> str:
-    """Return the new best results in words, or ""."""
-    if time is None or won is None:
-        return ""
-    best = before.quickest if won else before.longest
-    if best is not None and (time < best if won else time > best):
-        return f"Your best: {time:.1f} s, before {best:.1f} s."
-    return ""
-
-
-def game_of(experiment: Experiment) -> str:
-    """Return the name under which the scores of a game are kept: with other options, another one.
-
-    Its seeds are starts of one game. How it is drawn does not count.
-
-    >>> from mars2d.scenario.experiment import open_experiment
-    >>> game_of(open_experiment("corner_game", {"mu": 0.8}))
-    'corner_game, mu = 0.8'
-    """
-    options = {k: v for k, v in experiment.options.items() if k.partition(".")[0] != "animation"}
-    options.pop("seed", None)
-    path = experiment.source.path
-    name = experiment.scenario.title if path is None else str(path.absolute())
-    if path is not None and path in examples().values():
-        name = experiment_name(path)
-    return ", ".join([name, *(f"{key} = {value}" for key, value in sorted(options.items()))])

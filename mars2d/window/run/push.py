@@ -6,8 +6,6 @@ import re
 from collections.abc import Callable, Iterable
 from math import atan2, cos, degrees, dist, hypot, radians, sin
 
-import pygame
-
 from mars2d.bodies.rigid import Triple
 from mars2d.core.errors import InputError, shown
 from mars2d.core.plane import Point
@@ -21,7 +19,6 @@ from mars2d.window.run.drags import (
     GOOD,
     HALO,
     LABEL,
-    NOTCH,
     Act,
     draw_ring,
     pull_of,
@@ -60,13 +57,11 @@ class Aim:
         self.newtons = self.angle = 0.0
         self._stiffness = stiffness_of(scenario, body)
 
-    def move(self, frame: Frame, point: Point, mods: int) -> None:
-        """Aim at a point; with Ctrl in steps of 15 degrees."""
+    def move(self, frame: Frame, point: Point) -> None:
+        """Aim at a point."""
         start = world_point(frame.body_pose(self.body), self.grip)
         self.newtons = float(f"{self._stiffness * dist(start, point):.2g}")
         self.angle = atan2(point[1] - start[1], point[0] - start[0])
-        if mods & pygame.KMOD_CTRL:
-            self.angle = NOTCH * round(self.angle / NOTCH)
 
     def end(self) -> None:
         """Push."""

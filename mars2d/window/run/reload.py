@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
@@ -42,7 +41,7 @@ class Reload:
         self._timeline, self._progress = timeline, progress
         self._next = self._since = 0.0  # when to look again; when files last changed
         self._stamps: dict[Path, Stamp | None] = {}
-        self._contents: dict[Path, bytes] = {}
+        self._read_stamps = self._stamps
         self._adopt()
 
     def poll(self, now: float) -> Reloaded | None:
@@ -67,9 +66,8 @@ class Reload:
         self._changed = False
         if gone := [path.name for path, stamp in stamps.items() if stamp is None]:
             return Reloaded(f"{', '.join(gone)} is gone: the run goes on with what it was")
-        contents = {path: _content(path) for path in stamps}
-        others = [path.name for path in stamps if contents[path] != self._contents[path]]
-        self._contents = contents
+        others = [path.name for path in stamps if stamps[path] != self._read_stamps[path]]
+        self._read_stamps = stamps
         return self._read(", ".join(others)) if others else None
 
     def waits(self) -> bool:
@@ -82,12 +80,9 @@ class Reload:
         self._watch(self._experiment.source.written)
 
     def _watch(self, files: Iterable[Path]) -> None:
-        before = self._stamps, self._contents
-        self._stamps, self._contents, self._changed = {}, {}, False
-        for path in sorted(files):
-            known = path in before[0]
-            self._stamps[path] = before[0][path] if known else _stamp(path)
-            self._contents[path] = before[1][path] if known else _content(path)
+        known, self._changed = self._stamps, False
+        self._stamps = {p: known[p] if p in known else _stamp(p) for p in sorted(files)}
+        self._read_stamps = self._stamps
 
     def _read(self, name: str) -> Reloaded:
         """Open the experiment again, and continue with it; name: of the saved files."""
@@ -123,11 +118,3 @@ def _stamp(path: Path) -> Stamp | None:
     except OSError:
         return None
     return status.st_mtime_ns, status.st_size
-
-
-def _content(path: Path) -> bytes:
-    """Return a digest of a file's content, empty if it can't be read."""
-    try:
-        return hashlib.sha256(path.read_bytes()).digest()
-    except OSError:
-        return b""

@@ -49,10 +49,6 @@ class ScorePanel(RowsPanel):
         left = max(scenario.stop_time - frame.time, 0.0)
         at_end = Word(f"{left:.1f} s", theme.ink, 24, bold=True)
         yield self.line(TIME, [Word("time left", theme.muted, SMALL)], [at_end])
-        distance = play.distance(frame)
-        if distance is not None:
-            at_end = Word(f"{distance:.2f} m", theme.ink, SIZE, bold=True)
-            yield self.line(ROW, [Word("distance", theme.muted, SMALL)], [at_end])
         yield Row(GAP, self._rule)
         score = play.score()
         for role, team in roles_of(scenario).items():
@@ -63,10 +59,6 @@ class ScorePanel(RowsPanel):
             if not seat.role:
                 about = str(scenario.robots[seat.robot].name), "you", ""
                 yield from self._role(frame, seat.robot, about, [seat], width)
-        for role in dict.fromkeys(seat.role for seat in play.seats if seat.role):
-            if words := play.tally(role).in_words:
-                yield Row(GAP, self._rule)
-                yield from self._text(f"so far as {role}: {words}", width, 2)
 
     def _role(
         self,
@@ -97,7 +89,6 @@ class ScorePanel(RowsPanel):
             return
         yield self.line(WORDS, [Word(result.words, theme.running.ink, LARGE, bold=True)])
         yield from self._text(frame.over_message, width, MAX_LINES)
-        yield from self._text(result.news, width, 2)
         yield self._keys(("R",), "play again")
         yield self._keys((str(NEXT),), "next start")
         numbers = tuple(str(choice.number) for choice in self.play.choices)
@@ -116,8 +107,9 @@ class ScorePanel(RowsPanel):
         painter = self.painter
 
         def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
-            half, inset = round(DOT / 2 * painter.ui), round((DOT + 8) * painter.ui)
-            draw_dot(surface, painter, color, (rect.left + half, rect.centery))
+            side, inset = round(DOT * painter.ui), round((DOT + 8) * painter.ui)
+            dot = pygame.Rect(rect.left, rect.centery - side // 2, side, side)
+            painter.panel(surface, dot, color, side / 2)
             rest = pygame.Rect(rect.left + inset, rect.top, rect.width - inset, rect.height)
             write_line(surface, rest, painter, left, right)
 
@@ -128,31 +120,13 @@ class ScorePanel(RowsPanel):
         painter = self.painter
 
         def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
-            x = draw_keys(surface, painter, keys, rect.midleft) + round(4 * painter.ui)
-            place = x, rect.centery
+            x = rect.left
+            for key in keys:
+                x = draw_cap(surface, painter, key, x, rect.centery, painter.ui)
+            place = x + round(4 * painter.ui), rect.centery
             painter.write(surface, does, SIZE * painter.ui, painter.theme.text, midleft=place)
 
         return Row(KEYS, draw)
 
     def _rule(self, surface: pygame.Surface, rect: pygame.Rect) -> None:
         surface.fill(self.painter.theme.edge, (rect.left, rect.centery, rect.width, 1))
-
-
-def draw_dot(
-    surface: pygame.Surface, painter: Painter, color: str, middle: tuple[int, int]
-) -> None:
-    """Draw a dot in a robot's colour."""
-    side = round(DOT * painter.ui)
-    dot = pygame.Rect(0, 0, side, side)
-    dot.center = middle
-    painter.panel(surface, dot, color, side / 2)
-
-
-def draw_keys(
-    surface: pygame.Surface, painter: Painter, keys: tuple[str, ...], left: tuple[int, int]
-) -> int:
-    """Draw the caps of keys in a row from its left end, pixels; return where it ends."""
-    x, y = left
-    for key in keys:
-        x = draw_cap(surface, painter, key, x, y, painter.ui)
-    return x

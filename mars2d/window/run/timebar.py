@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,7 +10,7 @@ import pygame
 
 from mars2d.core.plane import grid_step
 from mars2d.core.scene import Scene
-from mars2d.output.marks import MARKS
+from mars2d.output.controls import MARKS
 from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.theme import mixed
@@ -63,7 +63,6 @@ class TimeBar(Slider):
         """Start with nothing drawn."""
         super().__init__()
         self._state: TimeState | None = None
-        self._ticks: dict[MarkKind, tuple[object, list[tuple[int, int]]]] = {}
 
     def row_at(self, x: float) -> int | None:
         """Return the recorded row nearest to a pixel from the left.
@@ -109,7 +108,6 @@ class TimeBar(Slider):
         self._band(surface, painter, state)
         self._marks(surface, painter, state)
         self._handle(surface, painter, state, lifted=hovered)
-        self._label(surface, painter, state)
         if hovered and pointer is not None:
             row = self.row_at(pointer[0])
             place = round(self.x_of(row or 0)), rect.top - round(4 * ui)
@@ -163,28 +161,18 @@ class TimeBar(Slider):
             height = (below if mark.below else above) + long - top
             wide = thick * (2 if kind == "error" else 1)
             color = mark.color(painter.theme)
-            for x, width in self._stretches(kind, state.marks.get(kind, ()), wide):
+            for x, width in self._stretches(state.marks.get(kind, ()), wide):
                 surface.fill(color, (x, top, width, height))
 
-    def _stretches(self, kind: MarkKind, rows: Sequence[int], thick: int) -> list[tuple[int, int]]:
-        """Return runs of columns of pixels with events, each as its first pixel and its width.
+    def _stretches(self, rows: Sequence[int], thick: int) -> Iterator[tuple[int, int]]:
+        """Yield runs of columns of pixels with events, each as its first pixel and its width.
 
-        thick: the width of a tick, pixels. They are found again where there is something new.
+        thick: the width of a tick, pixels.
         """
-        extent = 1.0 if self._state is None else self._state.extent
-        of = len(rows), rows[-1:], self._line.left, self._line.width, extent, thick
-        known, found = self._ticks.get(kind, (None, []))
-        if known != of:
-            share = np.array(rows) / extent
-            columns = np.unique(np.rint(self._line.left + self._line.width * share).astype(int))
-            parts = np.split(columns, np.flatnonzero(np.diff(columns) > thick) + 1)
-            found = [
-                (int(each[0]) - thick // 2, int(each[-1] - each[0]) + thick)
-                for each in parts
-                if len(each)
-            ]
-            self._ticks[kind] = of, found
-        return found
+        columns = np.unique([round(self.x_of(row)) for row in rows]).astype(int)
+        for each in np.split(columns, np.flatnonzero(np.diff(columns) > thick) + 1):
+            if len(each):
+                yield int(each[0]) - thick // 2, int(each[-1] - each[0]) + thick
 
     def _handle(
         self, surface: pygame.Surface, painter: Painter, state: TimeState, *, lifted: bool
@@ -197,22 +185,6 @@ class TimeBar(Slider):
         scene.circle(center, 0.0, fill=theme.bar, pixels=11.0 if lifted else 9.0)
         scene.circle(center, 0.0, fill=color, pixels=9.0 if lifted else 7.0)
         painter.paint(surface, scene.shapes, PIXELS, shaded=False)
-
-    def _label(self, surface: pygame.Surface, painter: Painter, state: TimeState) -> None:
-        """Write the time above the handle, while the past is shown."""
-        if not state.past:
-            return
-        ui, line = painter.ui, self._line
-        text = _time(state.row, state)
-        image = painter.fonts.render(text, 12 * ui, painter.theme.past.ink, bold=True)
-        place = image.get_rect(
-            midbottom=(round(self.x_of(state.row)), line.centery - round(9 * ui))
-        )
-        place.left = min(max(place.left, line.left), line.right - place.width)
-        place.top = max(place.top, self._area.top + 1)
-        ground = place.inflate(round(8 * ui), 0)
-        surface.fill(painter.theme.bar, ground)
-        surface.blit(image, place)
 
 
 def _time(row: float, state: TimeState, digits: int | None = None) -> str:

@@ -18,7 +18,7 @@ Pixel = tuple[int, int]
 TRANSPORT = (("start", "back", "pause", "step", "newest"),)
 SEE = ("layers", "scopes", "fit", "follow", "contacts", "predictions", "lesson")
 CHANGE = ("parameters", "drive", "edit", "restart", "branch")
-SAVE = ("picture", "film", "scenario")
+SAVE = ("picture", "film")
 LOOK = ("screen", "dark", "text", "help", "leave")
 
 

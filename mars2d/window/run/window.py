@@ -18,7 +18,7 @@ from mars2d.output.layers.table import Layers
 from mars2d.output.raster.bars import Banner, Status, draw_footer, draw_header, footer_height
 from mars2d.output.raster.layout import Layout, fitted
 from mars2d.output.raster.picture import arena_of, summary
-from mars2d.output.raster.stage import MEMORY, Stage
+from mars2d.output.raster.stage import Stage
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import Intervention, pushes_at
 from mars2d.scenario.controllers import standing_still
@@ -34,11 +34,11 @@ from mars2d.window.panels.scopes import Scopes
 from mars2d.window.run import keys
 from mars2d.window.run.countdown import Countdown
 from mars2d.window.run.director import RECORDING, Director
+from mars2d.window.run.drags import GOOD, draw_ring
 from mars2d.window.run.ending import Ending
 from mars2d.window.run.ghosts import ghosts
 from mars2d.window.run.grab import CLICK, Grab
 from mars2d.window.run.heat import AGAIN, MOST, heat, squeezes
-from mars2d.window.run.hints import hints_of
 from mars2d.window.run.menus import (
     entries_of_body,
     entries_of_leaving,
@@ -56,14 +56,11 @@ from mars2d.window.run.tools import Tools
 from mars2d.window.screen.display import (
     Preferences,
 )
-from mars2d.window.screen.memory import Memory
-from mars2d.window.screen.picking import body_at, next_body, selection_mark, sensed_by
-from mars2d.window.screen.selection import Selection
+from mars2d.window.screen.picking import Selection, body_at, next_body, sensed_by
 from mars2d.window.screen.source import Playback, Source
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.dock import Dock
 from mars2d.window.widgets.menu import Entry
-from mars2d.window.widgets.notes import Progress, draw_progress
 from mars2d.world.timeline import Timeline
 
 if TYPE_CHECKING:
@@ -76,8 +73,11 @@ LACKS = {
     "parameters": RECORDING,
 }
 """What is said where a panel has nothing to show."""
-SEEN = 4.0
-"""The radius below which robots of a game are hardly seen, so that the camera goes near, pixels."""
+USUAL = (
+    ("Space", "pause"), ("← →", "step"), ("+ \N{MINUS SIGN}", "speed"), ("F1", "help"),
+)  # fmt: skip
+BY_HAND = (("↑ ↓ ← →", "drive"), ("Shift", "slowly"), ("H", "let go"), ("F1", "help"))
+"""The keys that the footer names; a game's panel has its own."""
 
 
 class Window(PlayerWindow):
@@ -106,14 +106,12 @@ class Window(PlayerWindow):
         self._before: Countdown | None = None
         self._score: ScorePanel | None = None
         self._crowded = False  # whether forces are drawn as colours
-        self._unseen = False  # whether a game has not been drawn yet
         timeline = self.director.timeline
         self._reload = None if timeline is None else Reload(timeline, self._show_way_back)
-        self._way_back: Progress | None = None
         self._ending = Ending(self.player)
         self._cast = _cast(source)
         painter = self._painter = self.looks.painter
-        self._stage = Stage(painter, MEMORY)
+        self._stage = Stage(painter)
         self._selection = Selection()
         self._tools = Tools(self.player, self.director, self._selection, self.notes)
         self._printed = Printed(painter, lambda: self.player.source.frame.time)
@@ -149,7 +147,6 @@ class Window(PlayerWindow):
             **self._tools.actions,
             "edit": self._open_editor,
             "film": self.saver.film_or_not,
-            "scenario": self._save_scenario,
         }
         self.scopes: Scopes = Scopes(painter, self.player)
         self.dock = Dock(
@@ -228,13 +225,8 @@ class Window(PlayerWindow):
         if self.editor is not None:
             return
         self._read_again()
-        if self.game is not None:
-            robots = self.player.source.scenario.robots
-            if self._unseen and min(r.radius for r in robots) * self.camera.scale < SEEN:
-                self.viewpoint.follow(None)
-            self._unseen = False
-            if self.game.pass_time(seconds):
-                self._rest.stir()
+        if self.game is not None and self.game.pass_time(seconds):
+            self._rest.stir()
         self.director.steer(seconds)
         self.grab.tick(self.player.frame, self.camera, self.player.playing)
         self.parameters.tick()
@@ -302,7 +294,9 @@ class Window(PlayerWindow):
             squeezed = "" if over is None else in_newtons(float(squeezes(frame)[over]))
         marks = self.grab.marks(frame, self.camera, named=self.layers.names, more=squeezed)
         if self.selected is not None:
-            marks = [*selection_mark(frame, self.selected).shapes, *marks]
+            ring = Scene()
+            draw_ring(ring, frame, self.selected, GOOD, 2.5, 10.0)
+            marks = [*ring.shapes, *marks]
         timeline = self.director.timeline
         source, done = self.player.source, list[Intervention]()
         if timeline is not None:
@@ -325,18 +319,15 @@ class Window(PlayerWindow):
             beneath=others,
             marks=marks,
             hurried=self.viewpoint.hurried,
-            selected=self.selected,
         )
         self._draw_dock(surface, frame)
         if notes and not self.saver.filming:
             off = self._selected_pixel(frame)
             self.notes.draw(surface, layout.plot, self._painter, time.monotonic(), off)
-        if self._way_back is not None:
-            draw_progress(surface, layout.plot, self._painter, self._way_back)
         self._tools.stopwatch.draw(surface, self.viewpoint.room, self._painter, frame.time)
         self._draw_bars(surface, frame, banner)
         if self._before is not None and notes:
-            self._before.draw(surface, self.viewpoint.room, layout.plot, self.camera, frame)
+            self._before.draw(surface, self.viewpoint.room, layout.plot, frame.scenario)
         if notes:
             self.toolbar.draw(surface, layout, self._painter, self._pointer)
             self._tools.menu.draw(surface, layout.plot, self._painter)
@@ -354,9 +345,7 @@ class Window(PlayerWindow):
         layout, painter = self.layout, self._painter
         draw_header(surface, layout, painter, frame, self._status())
         self._controls.draw(surface, layout, painter, self._pointer, self._mouse.drags)
-        hints = hints_of(
-            self.player, self.game, drives=self._drives, score_shown="score" in self.dock.plates
-        )
+        hints = () if self.game is not None else BY_HAND if self._drives else USUAL
         draw_footer(surface, layout, painter, banner, summary(frame), hints)
 
     def _status(self) -> Status:
@@ -458,9 +447,7 @@ class Window(PlayerWindow):
         ((x, y),) = self.camera.to_pixels([point]).astype(int).tolist()
         frame, body, live = self.player.frame, self.selected, self.director.timeline is not None
         if body is None:
-            entries = entries_of_place(
-                point, self.grab.name, self._actions, self._tools.measure_from, live=live
-            )
+            entries = entries_of_place(point, self._actions, self._tools.measure_from, live=live)
         else:
             entries = entries_of_body(frame, body, self._actions, live=live)
         self.toolbar.menu.open("offer", lambda: entries, (x, y))
@@ -595,12 +582,6 @@ class Window(PlayerWindow):
         banner, frame = self._ending.banner(), self.player.frame
         return arena_of(window, self.layout, self._painter, frame, banner)
 
-    def _save_scenario(self) -> None:
-        """Save the scenario as it is now."""
-        timeline = self.director.timeline
-        control = None if timeline is None else timeline.world.control
-        self.saver.scenario(self.director.scenario_to_save(), control)
-
     def _to_sliders(self) -> None:
         """Let keys go to the sliders of parameters, which are shown."""
         if not self.parameters.is_open:
@@ -653,17 +634,13 @@ class Window(PlayerWindow):
         stands = "stand" if more else "stands"
         self.notes.say(f"{name}{more} {stands} still: {name} lacks {want}", "warning")
 
-    def play(self, memory: Memory, game: str, robots: Sequence[int] = ()) -> None:
-        """Make it a game, with people at these robots, or with roles that they choose.
-
-        memory: keeps the scores. game: its name for the scores.
-        """
-        self.game = Play(self.player, self.director, memory, game)
+    def play(self, robots: Sequence[int] = ()) -> None:
+        """Make it a game, with people at these robots, or with roles that they choose."""
+        self.game = Play(self.player, self.director)
         self._ending.of_game = True
         self._before = Countdown(self._painter, self.game)
         self._score = ScorePanel(self._painter, self.game)
         self.dock.panels = [*self.dock.panels, self._score]
-        self._unseen = True
         self.game.begin(robots)
 
     def _open_editor(self) -> None:
@@ -682,14 +659,13 @@ class Window(PlayerWindow):
             self.director.apply(editor.dialogs.outcome)
             self._meet()
 
-    def _show_way_back(self, share: float) -> bool:
-        """Draw the progress of going back; return whether to go on: False after Esc."""
-        self._way_back = Progress(f"Going back to {self.player.frame.time:.1f} s", share)
+    def _show_way_back(self, share: float) -> bool:  # noqa: ARG002
+        """Say that a world goes back, which takes a while; return whether it may."""
+        self.notes.say(f"going back to {self.player.frame.time:.1f} s; Esc stays here")
         surface = pygame.display.get_surface()
         if surface is not None:
             self.draw(surface)
             pygame.display.flip()
-        self._way_back = None
         leaving = pygame.event.get(pygame.QUIT)
         self._open = self._open and not leaving
         keys_down = pygame.event.get(pygame.KEYDOWN)

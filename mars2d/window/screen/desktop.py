@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import ctypes
 import os
-import re
-import subprocess
 import sys
 
 import pygame
@@ -24,7 +22,8 @@ def desktop_scale() -> float:
     """Return how many pixels a point of the desktop has: 1, or 1.25 to 4 on sharp screens.
 
     The environment variable MARS2D_SCALE, 0.5 to 8, overrides it. It is 1 on systems that enlarge
-    windows themselves, such as macOS and Wayland. Raises InputError for an invalid variable.
+    windows themselves, such as macOS and Wayland, and on X servers. Raises InputError for an
+    invalid variable.
     """
     chosen = os.environ.get(VARIABLE)
     if chosen:
@@ -37,7 +36,7 @@ def desktop_scale() -> float:
         expected = f"expected the pixels of a point, {MIN_SCALE:g} to {MAX_SCALE:g}"
         raise InputError(f"{VARIABLE}={shown(chosen)}: {expected}")
     driver = pygame.display.get_driver() if pygame.display.get_init() else ""
-    found = {"windows": _of_windows, "x11": _of_x11}.get(driver, lambda: None)()
+    found = _of_windows() if driver == "windows" else None
     return min(max(found, 1.0), MAX_SCALE) if found else 1.0
 
 
@@ -59,22 +58,3 @@ def _of_windows() -> float | None:
         return float(ctypes.windll.user32.GetDpiForSystem()) / USUAL_DPI
     except (AttributeError, OSError):  # before Windows 10
         return None
-
-
-def _of_x11() -> float | None:
-    """Return the desktop's setting for programs: GDK_SCALE, or the resource Xft.dpi."""
-    try:
-        return float(os.environ["GDK_SCALE"])
-    except (KeyError, ValueError):
-        found = re.search(r"^Xft\.dpi:\s*([\d.]+)\s*$", _resources(), re.MULTILINE)
-        return float(found[1]) / USUAL_DPI if found else None
-
-
-def _resources() -> str:
-    """Return the X server's resources, lines of names and values; "" where they can't be asked."""
-    try:
-        return subprocess.run(
-            ["xrdb", "-query"], capture_output=True, text=True, timeout=2, check=False
-        ).stdout
-    except (OSError, subprocess.TimeoutExpired):
-        return ""

@@ -7,20 +7,16 @@ from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import pygame
 
 from mars2d.core.errors import InputError
-from mars2d.core.files import atomic_write
 from mars2d.core.scene import Scene
 from mars2d.output.formats import save_branches
 from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.picture import save_png
-from mars2d.scenario.scenario import Scenario
-from mars2d.scenario.toml_file import save_scenario
-from mars2d.window.widgets.clipboard import copied
 from mars2d.window.widgets.notes import Notes
 from mars2d.world.record import Record
 
@@ -54,20 +50,6 @@ class Saver:
         """Save a picture."""
         self.save("picture", ".png", partial(save_png, surface))
 
-    def scenario(self, scenario: Scenario, control: Callable[[Any], Any] | None) -> None:
-        """Save a scenario, and copy its file to the clipboard if there is one.
-
-        control: the law of the team.
-        """
-
-        def write(path: Path) -> str:
-            missing = save_scenario(scenario, path, control)
-            without = f", without {', '.join(missing)}" if missing else ""
-            text = path.read_text(encoding="utf-8")
-            return without + (", and on the clipboard" if copied(text) else "")
-
-        self.save("scenario", ".toml", write)
-
     def record(self, record: Record) -> bool:
         """Save a run with its branches; return whether it could be."""
 
@@ -76,16 +58,6 @@ class Saver:
             return ", other branches beside it" if save_branches(record, path) else ""
 
         return self.save("run", ".npz", write)
-
-    def table(self, write: Callable[[], str]) -> None:
-        """Save a table, the text of a CSV file that `write` returns."""
-
-        def save(path: Path) -> None:
-            text = write().encode()
-            with atomic_write(path) as file:
-                file.write(text)
-
-        self.save("numbers", ".csv", save)
 
     def film_or_not(self) -> None:
         """Start a film of the window, or end it."""

@@ -24,7 +24,7 @@ MAX_ZOOM, MIN_ZOOM = 400.0, 0.05
 """The range of the scale, in multiples of that at which the workspace fits."""
 
 PULL = 7.0
-"""How quickly the camera approaches its aim, critically damped, 1/s."""
+"""How quickly the camera approaches its aim, 1/s."""
 LEASH = 0.3
 """How far from the middle a followed body may get, in shares of the picture."""
 MARGIN, MIN_MARGIN = 0.16, 0.03
@@ -164,10 +164,9 @@ class Follow:
     """
 
     def __init__(self, target: int | None) -> None:
-        """Start at rest."""
+        """Start with nothing aimed at."""
         self.target = target
-        self._speed = np.zeros(3)  # of the middle [m/s], and of the scale's logarithm [1/s]
-        self._turning = True  # towards a target outside the view
+        self._begins = True
         self._aim: Float | None = None  # middle and logarithm of the scale, of a team
 
     def camera(self, camera: Camera, frame: Frame, plot: pygame.Rect, dt: float) -> Camera:
@@ -183,15 +182,14 @@ class Follow:
             aim = self._aim
         else:
             aim = np.array([*frame.body_pose(self.target)[:2], middle[2]])
-        off = middle - aim
-        moved, self._speed = _damped(off, self._speed, dt)
+        moved = (middle - aim) * exp(-PULL * dt)
         if self.target is not None:
             leash = 2 * LEASH * half
-            self._turning &= bool((np.abs(off[:2]) > leash).any())
-            if not self._turning:
+            self._begins &= bool((np.abs(middle - aim)[:2] > leash).any())
+            if not self._begins:  # it does not get away again
                 moved[:2] = np.clip(moved[:2], -leash, leash)
-        if _small(moved, camera.scale) and _small(self._speed / PULL, camera.scale):
-            self._speed, self._aim = np.zeros(3), None
+        if hypot(moved[0], moved[1]) * camera.scale < STILL and abs(float(moved[2])) < STILL / 50:
+            self._aim = None
             return camera
         scale = camera.scale  # unchanged to the last bit, so that drawings can be reused
         if self.target is None:
@@ -208,8 +206,8 @@ class Follow:
         corners = camera.to_pixels([(low[0], high[1]), (high[0], low[1])]) - plot.topleft
         room = MIN_MARGIN * size
         seen = (corners[0] >= room).all() and (corners[1] <= size - room).all()
-        if self._turning or not seen or camera.scale < SMALL * fit:
-            self._turning = False
+        if self._begins or not seen or camera.scale < SMALL * fit:
+            self._begins = False
             self._aim = np.array([*(low + high) / 2, log(fit)])
 
 
@@ -230,16 +228,6 @@ def _round(robots: Sequence[Robot], poses: Float) -> tuple[Float, Float]:
     centers = np.array([center for center, _ in circles])
     radii = np.array([radius for _, radius in circles])[:, None]
     return (centers - radii).min(axis=0), (centers + radii).max(axis=0)
-
-
-def _damped(off: Float, speed: Float, dt: float) -> tuple[Float, Float]:
-    """Return the offset and speed of a critically damped spring after dt, by the exact formula."""
-    push, decay = speed + PULL * off, exp(-PULL * dt)
-    return (off + push * dt) * decay, (speed - PULL * push * dt) * decay
-
-
-def _small(off: Float, scale: float) -> bool:
-    return hypot(off[0], off[1]) * scale < STILL and abs(float(off[2])) < STILL / 50
 
 
 def _middle(camera: Camera, plot: pygame.Rect) -> Float:

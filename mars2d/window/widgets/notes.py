@@ -1,4 +1,4 @@
-"""What a window says: notes that fade, and the progress of something long."""
+"""What a window says: notes that fade."""
 
 from __future__ import annotations
 
@@ -125,37 +125,3 @@ def _drawn(note: _Note, plot: pygame.Rect, painter: Painter) -> pygame.Surface:
 def _color(kind: NoteKind, theme: Theme) -> str:
     tones = {"info": theme.running, "warning": theme.waiting, "error": theme.error}
     return tones[kind].ink
-
-
-@dataclass(frozen=True, slots=True)
-class Progress:
-    """A long task: its name, and the share of it that is done, from 0 to 1."""
-
-    text: str
-    share: float
-
-
-def draw_progress(
-    surface: pygame.Surface, plot: pygame.Rect, painter: Painter, progress: Progress
-) -> None:
-    """Draw the task and a bar below it, at the middle of the picture's lower edge."""
-    ui, fonts, theme = painter.ui, painter.fonts, painter.theme
-    share = min(max(progress.share, 0.0), 1.0)
-    pad, percent = round(18 * ui), f"{100 * share:.0f} %"
-    most = min(MAX_WIDTH * ui, plot.width - 4 * pad)
-    number = fonts.width("100 %", 15 * ui, bold=True) + round(14 * ui)
-    text = fonts.shorten(progress.text, 15 * ui, most - number)
-    width = max(fonts.width(text, 15 * ui) + number, round(min(260 * ui, most)))
-    plate = pygame.Rect(0, 0, width + 2 * pad, round(60 * ui))
-    plate.midbottom = (plot.centerx, plot.bottom - round(16 * ui))
-    painter.panel(surface, plate, theme.plate, 10 * ui, theme.edge)
-    middle = plate.top + round(23 * ui)
-    painter.write(surface, text, 15 * ui, theme.ink, midleft=(plate.left + pad, middle))
-    end, ink = (plate.right - pad, middle), theme.running.ink
-    painter.write(surface, percent, 15 * ui, ink, bold=True, midright=end)
-    line = pygame.Rect(plate.left + pad, plate.top + round(41 * ui), width, round(6 * ui))
-    painter.panel(surface, line, theme.track, line.height / 2)
-    before = surface.get_clip()
-    surface.set_clip(pygame.Rect(line.left, line.top, round(share * line.width), line.height))
-    painter.panel(surface, line, theme.selected, line.height / 2)
-    surface.set_clip(before)

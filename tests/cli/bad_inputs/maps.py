@@ -48,9 +48,4 @@ CASES = [
           a__png=_png(10**6, 10**6)),
     *(experiment(name, f"scenario = Scenario(addons=[{code}])", "line 8", *words)
       for name, code, *words in IN_CODE),
-    typed("a map in a robot's way", "mars2d run random_walk --headless --set map=a.svg",
-          "robot0", "inside",
-          a__svg=SVG.format('<rect x="0" y="0" width="4" height="4" fill="black"/>')),
-    typed("a set map's unit that is none", "mars2d run random_walk --headless --set map=a.svg "
-          "--set map.unit=mtr", "mtr", a__svg=LINE),
 ]  # fmt: skip

@@ -34,7 +34,6 @@ OF_RUN = [
     ("a set mass that is a formula", f"{RUN} --set 'robots.*.mass=1+1/2'", "'1+1/2'", "a number"),
     ("an unknown parameter", "mars2d run follow_the_leader --headless --set folowers=2",
      "'folowers'", "'followers'"),
-    ("how no map is read", f"{RUN} --set map.unit=m", "map"),
     ("a record in no folder", f"{RUN} --record no/where/a.npz", "--record", "no folder"),
     ("a figure of no format", f"{RUN} --figure a.bmp", "--figure a.bmp", ".png"),
     ("times without a figure", f"{RUN} --at 1,2", "--at", "--figure"),

@@ -162,6 +162,4 @@ CASES = [
     _of_run("a replay saved as PDF", "load('run.npz').save_html('a.pdf')", "a.pdf", ".html"),
     _of_run("a record's signal that is none", "load('run.npz').plot_signals('sped')", "sped"),
     _of_run("a record's snapshots after its end", "load('run.npz').plot_snapshots([9])", "9"),
-    _of_run("a record's style that is none", "load('run.npz').plot(style='wide')", "'wide'",
-          "print"),
 ]  # fmt: skip

@@ -34,7 +34,7 @@ def test_the_struct_has_the_names_of_the_paper(tmp_path):
     in_table_1 = {
         "Robots", "Initial_pose", "Sampling_time", "Stop_time", "Workspace", "Bounds",
         "Non_holonomic", "Command_delay", "Exp_over", "Exp_over_msg", "Filename", "Version",
-        "Addons", "Robot", "Animation", "History",
+        "Addons", "Robot", "History",
     }  # fmt: skip
     assert in_table_1 <= out.keys()
     assert out["Robots"] == 3
@@ -44,8 +44,6 @@ def test_the_struct_has_the_names_of_the_paper(tmp_path):
     vertices = [each["Vertex"].tolist() for each in np.atleast_1d(out["Map"]["Obstacle"])]
     assert vertices == [[[*point] for point in outline] for outline in obstacles]
     assert vertices
-    assert len(out["Animation"]["Colors"]) == 3
-    assert out["Animation"]["Title"].rstrip() == "Grüße 🤖"
     assert out["Seed"] == 2**63 - 1
 
 

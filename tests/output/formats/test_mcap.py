@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 
 import mars2d
-from mars2d import InputError, LawError, Record, Robot, Scenario, World
+from mars2d import InputError, Record, Robot, Scenario, World
 from mars2d.core.extras import pip_line
 from mars2d.output.formats.mcap import Log
-from mars2d.output.formats.mcap.reading import BROKEN_OFF, records
-from mars2d.output.formats.mcap.row import Row, decoded, encoded, schema
+from mars2d.output.formats.mcap.reading import BROKEN_OFF
+from mars2d.output.formats.mcap.row import Row, decoded, encoded
 from mars2d.record.contact import CONTACT
 from mars2d.record.message import MESSAGE
 from mars2d.record.rows import COLUMNS
@@ -81,16 +81,8 @@ def test_a_log_holds_the_same_bits_as_the_record_of_the_run(name, tmp_path) -> N
     assert serialize.from_description(read.scenario) == serialize.from_description(other.scenario)
 
 
-@each_case("name", EXAMPLES)
-def test_a_record_is_saved_as_a_log_and_stays_the_same(name, tmp_path) -> None:
-    record = simulate(open_experiment(name, {"stop_time": 8.0}, seed=1)).record
-    first = mars2d.load(record.save(tmp_path / "first.mcap"))
-    second = mars2d.load(first.save(tmp_path / "second.mcap"))
-    assert first.digest == second.digest == record.digest
-
-
 @pytest.mark.slow
-@pytest.mark.parametrize("library", ["mcap", "foxglove", "google"])
+@pytest.mark.parametrize("library", ["mcap", "foxglove"])
 def test_without_a_library_a_log_says_what_to_install(library, child, tmp_path) -> None:
     code = (
         "import sys\n"
@@ -134,28 +126,6 @@ def test_wherever_a_log_breaks_off_all_rows_before_are_there(tmp_path) -> None:
     assert count > 200
 
 
-def test_a_row_is_a_message_that_protocol_buffers_can_read(tmp_path) -> None:
-    from google.protobuf import descriptor_pb2, descriptor_pool, message_factory
-    from mcap.records import Message
-
-    record = run("token_ring", tmp_path / "run.mcap")
-    pool = descriptor_pool.DescriptorPool()
-    for file in descriptor_pb2.FileDescriptorSet.FromString(schema()).file:
-        pool.Add(file)
-    kind = message_factory.GetMessageClass(pool.FindMessageTypeByName("mars2d.Row"))
-    with (tmp_path / "run.mcap").open("rb") as file:
-        told = records(tmp_path / "run.mcap", file)
-        rows = [each.data for each in told if isinstance(each, Message)]
-    mine = [row for row in rows if _is_row(row)]
-    assert len(mine) == len(record)
-    for k in (0, len(record) - 1):
-        row = kind.FromString(mine[k])
-        assert (row.row, *row.time) == (k, record.time[k])
-        assert list(row.pose) == record.pose[k].ravel().tolist()
-    talked = [kind.FromString(row) for row in mine]
-    assert [text for row in talked for text in row.contents] == list(record.contents)
-
-
 def test_a_row_comes_back_from_the_bytes_in_which_it_is_stored() -> None:
     contacts, messages = np.zeros(1, CONTACT), np.zeros(1, MESSAGE)
     contacts["b"], contacts["point"], contacts["began"] = -7, (0.1, 0.2), True
@@ -177,14 +147,6 @@ def test_a_row_comes_back_from_the_bytes_in_which_it_is_stored() -> None:
         )  # fmt: skip
 
 
-def _is_row(data: bytes) -> bool:
-    try:
-        decoded(data)
-    except Exception:
-        return False
-    return True
-
-
 def test_foxglove_gets_poses_frames_scans_and_the_scene(tmp_path) -> None:
     from mcap.reader import make_reader
 
@@ -200,7 +162,7 @@ def test_foxglove_gets_poses_frames_scans_and_the_scene(tmp_path) -> None:
     with (tmp_path / "run.mcap").open("rb") as file:
         reader = make_reader(file, validate_crcs=True)
         for told, channel, message in reader.iter_messages():
-            package, _, kind = told.name.partition(".")
+            package, _, kind = told.name.partition(".") if told else ("", "", "")
             if package == "foxglove":
                 shown = foxglove_message(kind, message.data)
                 found.setdefault(channel.topic, []).append(shown)
@@ -225,20 +187,6 @@ def test_foxglove_gets_poses_frames_scans_and_the_scene(tmp_path) -> None:
 # -- what ends a run ------------------------------------------------------------------------------
 
 
-def test_a_run_that_a_law_ends_is_in_its_log(tmp_path) -> None:
-    def law(world):
-        if world.iteration == 7:
-            raise ValueError("no more")
-        return np.zeros((2, 1))
-
-    with pytest.raises(LawError) as caught:
-        mars2d.run(Scenario(), control=law, record=tmp_path / "run.mcap")
-    read = mars2d.load(tmp_path / "run.mcap")
-    assert read.digest == caught.value.record.digest
-    assert "no more" in read.over_message
-    assert not read.finished
-
-
 # -- kill -9 --------------------------------------------------------------------------------------
 
 ENDLESS = """
@@ -249,7 +197,7 @@ from mars2d.output.formats.mcap import Log
 from mars2d.world.loop import open_world
 experiment = open_experiment("token_ring", {"stop_time": float(sys.argv[2])}, seed=1)
 with Log(sys.argv[1]) as log:
-    world = open_world(experiment, (), log.storage)
+    world = open_world(experiment)
     while not world.over:
         world.step()
         log.follow(world)
@@ -326,7 +274,7 @@ def test_foreign_files_are_refused_in_one_line(tmp_path) -> None:
 
     path = tmp_path / "run.mcap"
     for data, why in (
-        (b"", "empty: the run was killed before it began"),
+        (b"", "holds no rows: the run ended before its first one"),
         (b"hello", "this is no MCAP file"),
         (b"\x89MCAP0\r\n", "it has no rows of a run"),
     ):

@@ -10,23 +10,19 @@ import pygame
 import pytest
 
 from mars2d import Robot, Scenario, Unicycle
-from mars2d.core.scene import Arrow, Line
+from mars2d.core.scene import Arrow
 from mars2d.output.layers.legend import legends
-from mars2d.output.layers.neighbours import Links
-from mars2d.output.layers.table import Layers
+from mars2d.output.layers.neighbours import neighbours
 from mars2d.output.layers.velocities import speed_scale, velocities
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.legend import draw_legends
 from mars2d.output.raster.painter import Painter
-from mars2d.output.raster.stage import Stage
-from mars2d.output.raster.theme import DARK, LIGHT
 from mars2d.record.frame import Frame
 from mars2d.scenario.neighbours import Graph, Within
 from tests.cases import each_case
 
 SIZE = (640, 480)
 CAMERA = Camera(80.0, 320.0, 240.0)
-QUIET = Layers(grid=False, trails=False)
 
 
 def frame_of(poses, velocity=(0.0, 0.0, 0.0), **changes):
@@ -37,12 +33,6 @@ def frame_of(poses, velocity=(0.0, 0.0, 0.0), **changes):
     pose = before + dt * np.array(velocity)[:, None]
     props = np.array([prop.pose for prop in scenario.props]).reshape(-1, 3).T
     return Frame(scenario, dt, 1, pose, before[None], prop_pose=props, prop_path=props[None])
-
-
-def picture(frame, layers, theme=LIGHT):
-    surface = pygame.Surface(SIZE, 0, 32)
-    Stage(Painter(theme=theme)).draw(surface, frame, CAMERA, layers)
-    return pygame.surfarray.array3d(surface).swapaxes(0, 1).astype(int)
 
 
 # -- velocities -----------------------------------------------------------------------------------
@@ -65,17 +55,6 @@ def test_what_stands_or_creeps_has_no_arrow_and_what_flies_a_bounded_one():
     arrow, *cut = velocities(frame).shapes
     assert len(cut) == 2, "the two strokes that say that it is shortened"
     assert arrow.tip[0] - arrow.tail[0] == pytest.approx(speed_scale(frame.scenario).longest)
-
-
-@each_case("omega", [1.0, -2.0, 100.0])
-def test_an_arc_goes_from_the_heading_to_that_of_a_second_later(omega):
-    (arc, head) = velocities(frame_of([(1, 2, 0.5)], (0, 0, omega))).shapes
-    assert isinstance(arc, Line)
-    assert isinstance(head, Arrow)
-    heading, turn = 0.5 + 0.1 * omega, np.clip(omega, -5, 5)
-    for place, angle in ((arc.points[0], heading), (head.tip, heading + turn)):
-        x, y = np.array(place) - (1, 2)
-        assert (np.arctan2(y, x) - angle + pi) % (2 * pi) - pi == pytest.approx(0, abs=1e-9)
 
 
 def test_circles_show_how_tightly_a_robot_can_turn_at_its_speed():
@@ -109,25 +88,13 @@ def test_the_legends_lie_side_by_side(scale):
 # -- names ----------------------------------------------------------------------------------------
 
 
-def test_a_name_hides_no_body_and_can_be_read():
-    frame = frame_of([(0, 0, 0)])
-    for theme in (LIGHT, DARK):
-        without, seen = (picture(frame, replace(QUIET, names=on), theme) for on in (False, True))
-        changed = (without != seen).any(axis=2)
-        rows = np.flatnonzero(changed.any(axis=1))
-        assert 10 < len(rows) < 30
-        assert rows.max() < 240 - 80 * 0.15, "above the robot's rim"
-        page = sum(int(theme.page[k : k + 2], 16) for k in (1, 3, 5))
-        assert np.abs(seen[changed].sum(axis=1) - page).max() > 300
-
-
 # -- neighbours -----------------------------------------------------------------------------------
 
 
-def linked(frame, links=None):
+def linked(frame):
     """Return whether a line goes from robot to robot, for each pair of neighbours on a row."""
     surface = pygame.Surface(SIZE, 0, 32)
-    Painter().paint(surface, (links or Links())(frame).shapes, CAMERA)
+    Painter().paint(surface, neighbours(frame).shapes, CAMERA)
     middles = CAMERA.to_pixels((frame.pose[:2, 1:] + frame.pose[:2, :-1]).T / 2)
     return [surface.get_at((round(x), round(y)))[:3] != (0, 0, 0) for x, y in middles.tolist()]
 
@@ -141,12 +108,3 @@ def test_neighbours_are_linked():
 
 
 # -- layers ---------------------------------------------------------------------------------------
-
-
-@each_case("layer", ["names", "velocities", "neighbours"])
-def test_each_layer_is_seen_when_it_is_on(layer):
-    places = [(-1, 0, 0), (0, 0, 0)]
-    frame = frame_of(places, (0.2, 0.1, 0.5), neighbours=Within(2))
-    off, on = (picture(frame, replace(QUIET, **{layer: value})) for value in (False, True))
-    assert (off != on).any()
-    assert not getattr(Layers(), layer), "pictures are as they were"

@@ -14,11 +14,10 @@ from mars2d.output.raster.stage import Stage
 from mars2d.output.raster.theme import (
     DARK,
     LIGHT,
-    _lab,
-    contrast,
     mixed,
 )
 from tests.cases import each_case
+from tests.colors import contrast
 from tests.window.circling import Circling
 from tests.window.written import THEMES, pixels
 
@@ -73,15 +72,13 @@ def test_the_time_bar_and_the_slider_can_be_seen(theme):
 # -- on dark paper --------------------------------------------------------------------------------
 
 
-def distance(one, other):
-    """Return how different two colours look, in OKLab."""
-    return float(np.linalg.norm(np.subtract(*(_lab(np.array(rgb(c))) for c in (one, other)))))
-
-
-def test_the_colours_of_robots_are_told_apart_as_well():
+def test_the_colours_of_robots_are_seen_and_told_apart_as_well():
     dark = [DARK.shade(color) for color in PALETTE]
-    assert min(distance(a, b) for a, b in combinations(dark, 2)) > 0.075
-    assert [distance(DARK.shade(c), c) < 0.25 for c in PALETTE[:-1]] == [True] * 7
+    worst = min(contrast(color, LIGHT.paper) for color in PALETTE)
+    assert all(contrast(color, DARK.paper) > worst for color in dark)
+    assert min(np.abs(np.subtract(rgb(a), rgb(b))).max() for a, b in combinations(dark, 2)) > 0.15
+    assert DARK.shade("#ffffff") == DARK.paper
+    assert DARK.shade("#00000080") == "#ffffff80"
 
 
 # -- painted --------------------------------------------------------------------------------------

@@ -174,7 +174,7 @@ def _drawn(scene: Scene, floor: float) -> dict[str, Any]:
 
     floor: the height of the first shape, metres.
     """
-    found: dict[str, Any] = {"cylinders": [], "triangles": [], "lines": []}
+    found: dict[str, Any] = {"cylinders": [], "lines": []}
     for k, shape in enumerate(scene.shapes):
         z, outline = floor + k * SHAPE_HEIGHT, np.empty((0, 2))
         if isinstance(shape, Circle):
@@ -191,17 +191,7 @@ def _drawn(scene: Scene, floor: float) -> dict[str, Any]:
                         color=_color(shape.fill),
                     )
                 )
-        elif isinstance(shape, Polygon):
-            outline = shape.points
-            if shape.fill is not None:
-                found["triangles"].append(
-                    messages.TriangleListPrimitive(
-                        pose=_pose(0.0, 0.0, 0.0),
-                        points=_points(_triangles(outline), z),
-                        color=_color(shape.fill),
-                    )
-                )
-        elif isinstance(shape, Line):
+        elif isinstance(shape, Polygon | Line):
             outline = shape.points
         if len(outline) and isinstance(shape, Circle | Polygon | Line) and shape.stroke:
             kind = messages.LinePrimitiveLineType
@@ -216,18 +206,6 @@ def _drawn(scene: Scene, floor: float) -> dict[str, Any]:
                 )
             )
     return found
-
-
-def _triangles(outline: Float) -> Float:
-    """Return the corners of triangles that fill an outline (k, 2), three for each."""
-    import shapely
-
-    area = shapely.make_valid(shapely.Polygon(outline))
-    rings = (
-        shapely.get_coordinates(each)[:3]
-        for each in shapely.get_parts(shapely.constrained_delaunay_triangles(area))
-    )
-    return np.concatenate([np.empty((0, 2)), *rings])
 
 
 def _timestamp(time: float) -> Any:

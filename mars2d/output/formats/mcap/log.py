@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from types import TracebackType
 from typing import Any
 
 import numpy as np
@@ -17,7 +16,7 @@ from mars2d.core.scene import Scene
 from mars2d.output.formats import header as headers
 from mars2d.output.formats.mcap.row import Row, changes_at, cut
 from mars2d.output.formats.mcap.writing import Tape, require, write_whole
-from mars2d.record.columns import DiskError, Scratch
+from mars2d.record.columns import DiskError
 from mars2d.record.contact import CONTACT
 from mars2d.record.message import MESSAGE
 from mars2d.record.recorder import Recorder
@@ -51,28 +50,26 @@ class Log:
     """Writes the record of a world to an MCAP file, each control step when it is done.
 
     >>> with Log("run.mcap") as log:  # doctest: +SKIP
-    ...     world = World(scenario, control, storage=log.storage)
+    ...     world = World(scenario, control)
     ...     while not world.over:
     ...         world.step()
     ...         log.follow(world)
 
     If the process is killed, the file has all steps that were followed. At the end it is packed:
-    compressed, and with an index. storage: keeps the columns of a world in files beside the log, so
-    that a long run takes no memory.
+    compressed, and with an index.
 
     Raises DiskError where the file can't be written any more; the error's `record` has all that was
     recorded, and the file can be read up to the last whole step.
     """
 
     def __init__(self, path: str | Path) -> None:
-        """Open the file, and lock it. Raises InputError where it can't be written."""
+        """Open the file. Raises InputError where it can't be written."""
         self.path = Path(path)
         require(self.path)
         from mcap.writer import IndexType, Writer
 
         if not self.path.parent.is_dir():
             raise InputError(f"{self.path}: there is no folder {self.path.parent}")
-        self.storage = Scratch(self.path.parent)
         self._file = growing(self.path, afresh=True)
         # Without indices the writer keeps nothing in memory.
         self._writer: Any = Writer(
@@ -168,12 +165,7 @@ class Log:
         self._interrupts.__enter__()
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         try:
             self.close()
         finally:

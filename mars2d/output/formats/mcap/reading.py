@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import IO, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mars2d.core.errors import InputError
 from mars2d.output.formats import header as headers
@@ -16,9 +15,8 @@ from mars2d.output.formats.columns import shapes_of
 from mars2d.output.formats.guard import check_size, reading
 from mars2d.output.formats.mcap.row import decoded
 from mars2d.output.formats.mcap.writing import BEGIN, END, TOPIC, require
-from mars2d.record.columns import Texts
 from mars2d.record.contact import CONTACT
-from mars2d.record.message import MESSAGE, as_of
+from mars2d.record.message import MESSAGE, as_of, packed
 from mars2d.record.rows import Rows
 
 MAGIC = b"\x89MCAP0\r\n"
@@ -101,9 +99,7 @@ def _cut(rows: list[bytes], count: int) -> None:
 
 def _why_nothing(path: Path, channels: set[int]) -> str:
     """Return why a file holds no run. channels: those for rows in the file."""
-    if path.stat().st_size < len(MAGIC):
-        return "empty: the run was killed before it began"
-    if channels:
+    if channels or path.stat().st_size < len(MAGIC):
         return "holds no rows: the run ended before its first one"
     return "an MCAP file, but not of MARS2D: it has no rows of a run"
 
@@ -113,39 +109,25 @@ def _record(rows: list[bytes], header: dict[str, Any], end: dict[str, Any] | Non
 
     end: how the run ended, None where the log does not tell.
     """
-    robots, props = (len(header["scenario"].get(kind, ())) for kind in ("robots", "props"))
-    columns: dict[str, NDArray[Any]] = {}
-    if not rows:
+    decoded_rows = [decoded(data) for data in rows]
+    if [row.row for row in decoded_rows] != list(range(len(rows))):
+        raise ValueError("rows")
+    if rows:
+        names = decoded_rows[0].columns
+        columns = {name: np.stack([row.columns[name] for row in decoded_rows]) for name in names}
+    else:
+        robots, props = (len(header["scenario"].get(kind, ())) for kind in ("robots", "props"))
         columns = {name: np.empty((0, *s)) for name, s in shapes_of(robots, props, 2).items()}
-    contacts, messages = [np.empty(0, CONTACT)], [np.empty(0, MESSAGE)]
-    contents: list[str] = []
-    changes: list[Any] = []
-    for k, data in enumerate(rows):
-        row = decoded(data)
-        if k == 0:
-            columns = {
-                name: np.empty((len(rows), *values.shape), values.dtype)
-                for name, values in row.columns.items()
-            }
-        if row.row != k or row.columns.keys() != columns.keys():
-            raise ValueError("row")
-        for name, values in row.columns.items():
-            if (values.shape, values.dtype) != (columns[name][k].shape, columns[name].dtype):
-                raise ValueError(name)
-            columns[name][k] = values
-        contacts.append(row.contacts)
-        messages.append(row.messages)
-        contents += row.contents
-        changes += map(json.loads, row.changes)
-    inputs = columns["command"].size // max(len(rows) * robots, 1) or 2
-    for name, shape in shapes_of(robots, props, inputs).items():
-        columns[name] = columns[name].reshape(len(rows), *shape)
+    contacts = [np.empty(0, CONTACT), *(row.contacts for row in decoded_rows)]
+    messages = [np.empty(0, MESSAGE), *(row.messages for row in decoded_rows)]
+    contents = [text for row in decoded_rows for text in row.contents]
+    changes = [json.loads(change) for row in decoded_rows for change in row.changes]
     touched = np.concatenate(contacts)
     columns |= {f"contact:{name}": touched[name] for name in CONTACT.names or ()}
     if contents:
-        sent, texts = as_of(np.concatenate(messages), columns["time"][-1]), Texts.of(contents)
+        sent = as_of(np.concatenate(messages), columns["time"][-1])
         columns |= {f"message:{name}": sent[name] for name in MESSAGE.names or ()}
-        columns |= {"contents": texts.data, "content_sizes": texts.sizes}
+        columns |= packed(contents)
     carried = header["sensor_robots"]
     whole = header | {
         "interventions": [*header["interventions"], *changes],

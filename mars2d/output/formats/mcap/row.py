@@ -1,11 +1,11 @@
-"""The rows of a record as messages of Protocol Buffers, each with all that happened in its step."""
+"""The rows of a record as messages of a log, each with all that happened in its step."""
 
 from __future__ import annotations
 
 import json
 import struct
 from collections.abc import Iterator, Mapping, Sequence
-from functools import cache
+from math import prod
 from typing import Any, NamedTuple
 from zlib import crc32
 
@@ -96,149 +96,38 @@ def nanoseconds(time: float) -> int:
 
 # -- rows as messages -------------------------------------------------------------------------
 
-KINDS = {"f": ("double", "<f8"), "i": ("sfixed32", "<i4"), "u": ("fixed32", "<u4"),
-         "b": ("bool", "?")}  # fmt: skip
-"""How arrays are stored, by the kinds of their numbers: as messages call it, and as numpy does."""
+CRC = struct.Struct("<I")
+"""How a row ends: the check sum of all bytes before it."""
 
-
-def _fields_of(dtype: np.dtype[Any]) -> dict[str, str]:
-    """Return the fields of a message that holds the rows of a structured array."""
-    return {name: f"{KINDS[dtype[name].base.kind][0]}[]" for name in dtype.names or ()}
-
-
-FIELDS = {
-    "Row": {
-        "crc": "fixed32",
-        "row": "uint64",
-        **dict.fromkeys(COLUMNS, "double[]"),
-        "readings": "Readings[]",
-        "contacts": "Contacts",
-        "messages": "Messages",
-        "contents": "string[]",
-        "changes": "string[]",
-    },
-    "Readings": {
-        "sensor": "string",
-        "shape": "fixed32[]",
-        "numbers": "double[]",
-        "flags": "bool[]",
-    },
-    "Contacts": _fields_of(CONTACT),
-    "Messages": _fields_of(MESSAGE),
-}
-"""The fields of all messages, numbered from 1 on; [] marks arrays, which are flat."""
-
-CRC = struct.Struct("<BI")
-"""How a row ends: the tag of its field `crc`, and the check sum of all bytes before it."""
-
-CRC_TAG = 1 << 3 | 5  # the first field, a fixed32
-
-
-def schema() -> bytes:
-    """Return the schema of a row, as a FileDescriptorSet of Protocol Buffers."""
-    return bytes(_described("proto3").SerializeToString())
-
-
-def _described(syntax: str) -> Any:
-    """Return the description of a row's messages, with its arrays of numbers as bytes in proto2.
-
-    Both are stored alike, so numpy's arrays are written and read as they are: none of their numbers
-    is changed, nor becomes an object of Python. In proto2 a field that is set is stored even if it
-    is 0.
-    """
-    from google.protobuf.descriptor_pb2 import FieldDescriptorProto as Field
-    from google.protobuf.descriptor_pb2 import FileDescriptorSet
-
-    files = FileDescriptorSet()
-    file = files.file.add(name="mars2d/row.proto", package="mars2d", syntax=syntax)
-    for title, fields in FIELDS.items():
-        message = file.message_type.add(name=title)
-        for number, (name, kind) in enumerate(fields.items(), start=1):
-            field = message.field.add(name=name, number=number)
-            one, many = kind.removesuffix("[]"), kind.endswith("[]")
-            if syntax == "proto2" and many and one not in (*FIELDS, "string"):
-                one, many = "bytes", False
-            field.label = Field.LABEL_REPEATED if many else Field.LABEL_OPTIONAL
-            if one in FIELDS:
-                field.type, field.type_name = Field.TYPE_MESSAGE, f".mars2d.{one}"
-            else:
-                field.type = Field.Type.Value(f"TYPE_{one.upper()}")
-    return files
-
-
-@cache
-def _message_class() -> Any:
-    from google.protobuf.descriptor_pool import DescriptorPool
-    from google.protobuf.message_factory import GetMessageClass
-
-    pool = DescriptorPool()
-    pool.Add(_described("proto2").file[0])
-    return GetMessageClass(pool.FindMessageTypeByName("mars2d.Row"))
+TABLES = {"contacts": CONTACT, "messages": MESSAGE}
 
 
 def encoded(row: Row) -> bytes:
-    """Return a row as a message, see `schema`."""
-    message = _message_class()(row=row.row, contents=row.contents, changes=row.changes)
-    for name, values in row.columns.items():
-        _, of_sensor, sensor = name.partition(":")
-        if of_sensor:
-            shape = _stored(np.array(values.shape, "<u4"))
-            kind = "flags" if values.dtype.kind == "b" else "numbers"
-            message.readings.add(sensor=sensor, shape=shape, **{kind: _stored(values)})
-        else:
-            setattr(message, name, _stored(values))
-    for table, rows in ((message.contacts, row.contacts), (message.messages, row.messages)):
-        if len(rows):
-            for name in rows.dtype.names or ():
-                setattr(table, name, _stored(rows[name]))
-    data: bytes = message.SerializeToString()
-    return data + CRC.pack(CRC_TAG, crc32(data))
+    """Return a row as a message: a line of JSON that tells of its arrays, and their bytes."""
+    texts = json.dumps([row.row, list(row.contents), list(row.changes)])
+    tables = {"texts": texts.encode(), **{name: getattr(row, name).tobytes() for name in TABLES}}
+    arrays = {name: np.frombuffer(data, np.uint8) for name, data in tables.items()}
+    arrays |= {name: np.asarray(values) for name, values in row.columns.items()}
+    told = [(name, values.dtype.str, values.shape) for name, values in arrays.items()]
+    parts = [json.dumps(told).encode(), b"\n", *(values.tobytes() for values in arrays.values())]
+    data = b"".join(parts)
+    return data + CRC.pack(crc32(data))
 
 
 def decoded(data: bytes) -> Row:
-    """Return the row in a message; its columns are flat, but for those of sensors.
+    """Return the row in a message.
 
     Raises various exceptions, such as ValueError, where there is none.
     """
     body = data[: -CRC.size]
-    if data[-CRC.size :] != CRC.pack(CRC_TAG, crc32(body)):
+    if data[-CRC.size :] != CRC.pack(crc32(body)):
         raise ValueError("check sum of a row")
-    message = _message_class().FromString(body)
-    columns = {name: _restored(getattr(message, name), np.dtype(float)) for name in COLUMNS}
-    return Row(
-        row=message.row,
-        columns=columns | {f"sensor:{each.sensor}": _readings(each) for each in message.readings},
-        contacts=_table(message, "contacts", CONTACT),
-        messages=_table(message, "messages", MESSAGE),
-        contents=list(message.contents),
-        changes=list(message.changes),
-    )
-
-
-def _stored(values: NDArray[Any]) -> bytes:
-    """Return the bytes of an array, or of a number of numpy, as messages store them."""
-    return values.astype(KINDS[values.dtype.kind][1], copy=False).tobytes()
-
-
-def _restored(data: bytes, dtype: np.dtype[Any]) -> NDArray[Any]:
-    """Return the array (k,) of a kind whose bytes `_stored` has made."""
-    return np.frombuffer(data, KINDS[dtype.kind][1]).astype(dtype, copy=False)
-
-
-def _readings(message: Any) -> NDArray[Any]:
-    shape = _restored(message.shape, np.dtype(np.uint32)).tolist()
-    if message.HasField("flags"):
-        return _restored(message.flags, np.dtype(bool)).reshape(shape)
-    return _restored(message.numbers, np.dtype(float)).reshape(shape)
-
-
-def _table(message: Any, field: str, dtype: np.dtype[Any]) -> NDArray[np.void]:
-    """Return the structured array in a field that holds its columns one by one."""
-    if not message.HasField(field):
-        return np.zeros(0, dtype=dtype)
-    table = getattr(message, field)
-    rows = np.zeros(len(table.time) // 8, dtype=dtype)
-    for name in dtype.names or ():
-        values = rows[name]
-        values[...] = _restored(getattr(table, name), values.dtype).reshape(values.shape)
-    return rows
+    start = body.index(b"\n") + 1
+    arrays: dict[str, NDArray[Any]] = {}
+    for name, kind, shape in json.loads(body[:start]):
+        count = prod(shape)
+        arrays[name] = np.frombuffer(body, kind, count, start).reshape(shape)
+        start += arrays[name].nbytes
+    number, contents, changes = json.loads(arrays.pop("texts").tobytes())
+    tables = {name: arrays.pop(name).view(dtype) for name, dtype in TABLES.items()}
+    return Row(row=number, columns=arrays, contents=contents, changes=changes, **tables)

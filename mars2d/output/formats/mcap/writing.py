@@ -6,14 +6,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from mars2d.core.errors import InputError
 from mars2d.core.extras import extra
 from mars2d.core.files import atomic_write
 from mars2d.output.formats import header as headers
-from mars2d.output.formats.mcap.row import Row, cut, encoded, nanoseconds, schema
-from mars2d.record.message import as_of
+from mars2d.output.formats.mcap.row import Row, cut, encoded, nanoseconds
 from mars2d.record.rows import Rows
 from mars2d.scenario.scenario import Scenario
 
@@ -29,15 +25,11 @@ BEGIN, END = "mars2d", "mars2d end"
 CHUNK_SIZE = 2**20
 """How much is compressed in one piece, bytes."""
 
-LATEST = 2**64 / 1e9 - 1
-"""The latest time in an MCAP file, seconds: it counts nanoseconds in 64 bits."""
-
 
 def require(path: Path) -> None:
     """Raise MissingExtraError where a library is missing that a log needs."""
     with extra("log", f"{path}: a log needs mcap"):
         import foxglove  # noqa: F401
-        import google.protobuf  # noqa: F401
         import mcap  # noqa: F401
 
 
@@ -54,7 +46,7 @@ class Tape:
         self._channels: dict[str, int] = {}
         self._schemas: dict[str, int] = {}
         writer.start(profile="", library="mars2d")
-        self._open(TOPIC, "mars2d.Row", schema())
+        self._channels[TOPIC] = writer.register_channel(TOPIC, "mars2d", 0)
 
     def begin(self, header: Mapping[str, Any], scenario: Scenario, row: int = 0) -> None:
         """Write the header of the rows from `row` on; they replace such rows that were before."""
@@ -68,7 +60,7 @@ class Tape:
         ns, number = nanoseconds(row.time), row.row & 0xFFFFFFFF
         for topic, message in self._topics.messages(row, scenario):
             if topic not in self._channels:
-                self._open(topic, message.get_schema().name, message.get_schema().data)
+                self._open(topic, message.get_schema())
             self._writer.add_message(self._channels[topic], ns, message.encode(), ns, number)
         self._writer.add_message(self._channels[TOPIC], ns, encoded(row), ns, number)
 
@@ -78,20 +70,17 @@ class Tape:
         told = {name: header[name] for name in ("over_message", "finished", "digest")}
         self._writer.add_metadata(END, {"end": headers.as_text(told), "rows": str(len(record))})
 
-    def _open(self, topic: str, name: str, schema: bytes) -> None:
+    def _open(self, topic: str, schema: Any) -> None:
+        name = schema.name
         if name not in self._schemas:
-            self._schemas[name] = self._writer.register_schema(name, "protobuf", schema)
+            self._schemas[name] = self._writer.register_schema(name, "protobuf", schema.data)
         number = self._writer.register_channel(topic, "protobuf", self._schemas[name])
         self._channels[topic] = number
 
 
 def write(record: Rows, path: Path) -> None:
-    """Write a record to a file. Raises InputError where it can't be written.
-
-    A record that no run gives is refused, too, for example half of one: it could not be read again.
-    """
+    """Write a record to a file. Raises InputError where it can't be written."""
     require(path)
-    _check_whole(record, path)
     write_whole(record, path)
 
 
@@ -110,18 +99,3 @@ def write_whole(record: Rows, path: Path) -> None:
             tape.add(row, record.scenario_at(row.row))
         tape.end(record)
         writer.finish()
-
-
-def _check_whole(record: Rows, path: Path) -> None:
-    """Refuse a record whose times, or whose messages' status at the end, are of no run."""
-    rows = len(record)
-    start, end = (float(record.time[0]), float(record.time[-1])) if rows else (0.0, 0.0)
-    then = as_of(record.messages, end)
-    same = np.array_equal(then["status"], record.messages["status"])
-    nothing = len(record.contacts) == len(record.messages) == 0
-    done = all(each.row < rows for each in record.interventions)
-    if not (same and start >= 0 and end <= LATEST and (nothing if rows == 0 else done)):
-        raise InputError(
-            f"{path}: can't be written: a log is of a whole run, and this record is not, as if "
-            "rows had been cut off: save it as .npz"
-        )

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import base64
-import hashlib
 import html
 import json
 import re
 import zlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
@@ -16,8 +15,7 @@ from typing import TYPE_CHECKING
 
 from mars2d.core.errors import InputError
 from mars2d.core.files import atomic_write
-from mars2d.output.controls import CONTROLS, PAUSE
-from mars2d.output.marks import MARKS
+from mars2d.output.controls import CONTROLS, MARKS, PAUSE
 from mars2d.output.pages.replay.content import content_of
 from mars2d.output.raster.theme import DARK, LIGHT, Theme, Tone
 
@@ -28,10 +26,7 @@ __all__ = [
     "colors",
     "filled",
     "page",
-    "page_script",
-    "page_style",
     "player",
-    "policy",
     "replay_data",
     "save_html",
 ]
@@ -65,8 +60,6 @@ def replay_data(record: Rows) -> str:
     Raises InputError for a record without rows.
     """
     content, columns = content_of(record)
-    colors = set(re.findall(r"\"(#[0-9a-f]{6})", json.dumps(content)))
-    content["dark"] = {color: DARK.shade(color) for color in sorted(colors)}
     text = json.dumps(content, separators=(",", ":"), allow_nan=False).encode()
     packed = (zlib.compress(text, 6), columns.packed())
     return " ".join(base64.b64encode(part).decode() for part in packed)
@@ -77,12 +70,10 @@ def player(title: str, data: str, first: str = "") -> str:
 
     first: a script that runs before that of the page.
     """
-    script = first + page_script()
     words = {
-        "policy": policy([script], [page_style()]),
         "title": html.escape(title),
-        "style": page_style(),
-        "script": script,
+        "style": colors() + _read("replay.css"),
+        "script": first + _script(),
         "data": data,
         "PAUSE": PAUSE,
     }
@@ -93,17 +84,11 @@ def player(title: str, data: str, first: str = "") -> str:
 
 
 @cache
-def page_script() -> str:
+def _script() -> str:
     """Return the script of the page."""
     names = sorted(each.name for each in files(__package__).iterdir())
     parts = "\n".join(_read(name) for name in names if name.endswith(".js"))
     return f'(() => {{\n"use strict";\n{parts}}})();'
-
-
-@cache
-def page_style() -> str:
-    """Return the style of the page."""
-    return colors() + _read("replay.css")
 
 
 @cache
@@ -114,17 +99,6 @@ def _read(name: str) -> str:
 def filled(template: str, words: Mapping[str, str]) -> str:
     """Return a template with each {{name}} replaced by its words, which are taken as they are."""
     return re.sub("{{(.*?)}}", lambda found: words[found[1]], template)
-
-
-def policy(scripts: Iterable[str], styles: Iterable[str]) -> str:
-    """Return a content security policy: these scripts and styles run, nothing else is loaded."""
-    may_run, may_style = (
-        " ".join(f"'{_hash(text)}'" for text in texts) for texts in (scripts, styles)
-    )
-    return (
-        f"default-src 'none'; script-src {may_run}; style-src {may_style}; "
-        "img-src data:; base-uri 'none'; form-action 'none'"
-    )
 
 
 def colors() -> str:
@@ -140,8 +114,3 @@ def _variables(theme: Theme) -> str:
         elif isinstance(value, str):
             values[name] = value
     return " ".join(f"--{name.replace('_', '-')}: {value};" for name, value in values.items())
-
-
-def _hash(text: str) -> str:
-    """Return the name of a script or style in a content security policy."""
-    return "sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()

@@ -14,11 +14,9 @@ class Clock {
     this.speed = this.firstSpeed(record.speed);
   }
 
-  // As the experiment says, unless it would take more than five minutes; where it says nothing of
-  // use, the one that takes about half a minute.
+  // As the experiment says; where it says nothing of use, the one that takes about half a minute.
   firstSpeed(wanted) {
-    const said = typeof wanted === "number" && wanted > 0;
-    const near = said ? Math.max(wanted, this.end / 300) : Math.max(this.end / 30, 0.1);
+    const near = wanted > 0 ? wanted : Math.max(this.end / 30, 0.1);
     return SPEEDS.reduce((best, each) =>
       Math.abs(Math.log(each / near)) < Math.abs(Math.log(best / near)) ? each : best);
   }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,19 +10,12 @@ from numpy.typing import NDArray
 
 from mars2d.bodies.colors import prop_colors
 from mars2d.core.description import snake_case
-from mars2d.core.quantity import ANGLE, DISTANCE, Quantity
 from mars2d.core.scene import Scene
+from mars2d.output.controls import MARKS
 from mars2d.output.figures.extent import View, check_rows
 from mars2d.output.layers.arrows import MAX_ARROW
-from mars2d.output.layers.forces import (
-    FAINTEST,
-    MAX_CONTACTS,
-    SLIPPING,
-    force_scale,
-    in_newtons,
-)
+from mars2d.output.layers.forces import SLIPPING
 from mars2d.output.layers.legend import Legend, legends
-from mars2d.output.layers.rings import RING, has_ring
 from mars2d.output.layers.table import LAST_BODIES, LAYERS, Layer, standing
 from mars2d.output.layers.trails import (
     PROP_TRAIL_WIDTH,
@@ -30,25 +23,12 @@ from mars2d.output.layers.trails import (
     prop_trail_colors,
     trail_colors,
 )
-from mars2d.output.marks import MARKS
-from mars2d.output.pages.replay import sensors
 from mars2d.output.pages.replay.columns import Columns, Int, rounded
-from mars2d.output.pages.replay.drawings import (
-    Drawing,
-    Flat,
-    Float,
-    flat,
-    follows,
-    kept_rows,
-    pack,
-    shapes_of,
-)
-from mars2d.output.pages.replay.sensors import Carried
-from mars2d.record.contact import mean_forces
+from mars2d.output.pages.replay.drawings import Drawing, Flat, Float, flat, follows, pack, shapes_of
+from mars2d.output.raster.theme import LIGHT, mixed
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import leaps_of
 from mars2d.record.marks import marks_of
-from mars2d.scenario.animation import Animation
 
 if TYPE_CHECKING:
     from mars2d.record.rows import Rows
@@ -56,28 +36,20 @@ if TYPE_CHECKING:
 ROOM = 1_380_000
 """The most bytes of all columns; as text they take a third more."""
 
-POSES, PANEL = 480_000, 200_000
-"""The most bytes of each; beyond, they are thinned. Sensors get the rest."""
+POSES, PANEL, LAYER = 480_000, 200_000, 200_000
+"""The most bytes of each; beyond, rows are left out. Sensors, the last layer, get the rest."""
 
-LAYER_ROOM = {"addons": 240_000, "forces": 180_000}
-OTHER_ROOM = 60_000
-"""The most bytes of a layer."""
+MOST, CROWD = 1000, 100_000
+"""The most rows, and rows times bodies, at which layers are drawn, since that takes long."""
 
-LAYER_ROWS = {"addons": 300, "theory": 100, "velocities": 500}
-OTHER_ROWS = 2000
-"""The most rows at which a layer is drawn, since it may take long."""
-
-CROWD = 100_000
-"""The most rows times bodies at which a layer of a crowd is drawn."""
-
-FINE, TURN, COARSE, OF_SENSORS = 2**-20, 2 * np.pi / 2**16, 2**-18, 2**-14
-"""Steps of positions, of headings [rad], of moving shapes, and of what sensors draw.
-
-Those of lengths are shares of the view.
-"""
+FINE, TURN, COARSE = 2**-20, 2 * np.pi / 2**16, 2**-16
+"""Steps of positions, of headings [rad], and of moving shapes; lengths in shares of the view."""
 
 LEAP = 0.12
 """The share of the view beyond which a shape leaps between rows, rather than moving evenly."""
+
+ELSEWHERE = np.array([0.7, -0.4, 1.1])
+"""A pose that tells what turns with a body from what only moves with it."""
 
 
 def content_of(record: Rows) -> tuple[dict[str, Any], Columns]:
@@ -94,29 +66,27 @@ class _Content:
 
     def __init__(self, record: Rows) -> None:
         self.record, self.scenario = record, record.scenario
-        view = View.of(record, len(record) - 1)
-        self.view = view
-        self.size = max(view.width, view.height)
+        self.view = View.of(record, len(record) - 1)
+        self.size = max(self.view.width, self.view.height)
         self.columns = Columns()
         self.notes: list[str] = []
         self.kept = np.empty(0, dtype=np.int64)
-        self.poses = np.empty((0, 3, 0))
-        self.carried: list[Carried] = []
 
     def made(self) -> tuple[dict[str, Any], Columns]:
         """Return the data and the columns."""
         self._add_poses()
         header = self._about()
         header["bodies"] = self._bodies()
-        header["readings"] = self._add_panel()
+        self._add_panel()
         header["marks"] = self._add_marks()
-        header["layers"] = _table(self.scenario.animation)
+        header["layers"] = self._table()
         header["legends"] = [_legend(each) for each in legends(self.scenario)]
-        header["longestArrow"] = MAX_ARROW
         header["drawn"] = self._add_layers()
         if self.record.drawn.shapes:
             self.notes.append("what add-ons drew while they ran is shown at the end alone")
-        self._add_sensors(header["drawn"])
+        if self.record.missing:
+            listed = ", ".join(self.record.missing)
+            self.notes.append(f"not drawn, since their code is not in the record: {listed}")
         header["notes"] = self.notes
         header["columns"] = self.columns.index
         return header, self.columns
@@ -137,10 +107,12 @@ class _Content:
             "rows": len(record),
             "view": [view.xmin, view.xmax, view.ymin, view.ymax],
             "grid": list(scenario.bounds) if bounded else None,
-            "workspace": scenario.workspace is not None,
+            "ground": LIGHT.paper if scenario.workspace is None else LIGHT.page,
+            "colors": LIGHT._asdict(),
             "speed": scenario.animation.playback_speed,
             "slipping": SLIPPING,
             "lastBodies": LAST_BODIES,
+            "longestArrow": MAX_ARROW,
         }
 
     # -- bodies -------------------------------------------------------------------------------
@@ -174,11 +146,10 @@ class _Content:
         columns.add("leaps:row", rows)
         columns.add("leaps:body", bodies)
         self.columns.take(columns)
-        self.kept, self.poses = kept, poses[kept]
-        self.carried = list(sensors.carried(record, self.kept))
-        if len(self.kept) < len(record):
+        self.kept = kept
+        if len(kept) < len(record):
             self.notes.append(
-                f"{len(self.kept)} of {len(record)} rows are in this file, more where bodies move"
+                f"{len(kept)} of {len(record)} rows are in this file, more where bodies move"
             )
         if len(gaps):
             self.notes.append("paths have gaps where a body goes round a bend between two rows")
@@ -198,10 +169,10 @@ class _Content:
                 "robot": i < len(robots),
                 "color": color,
                 "bound": [*body.shape.bound[0], body.shape.bound[1]],
-                "ring": RING if i < len(robots) and has_ring(scenario, i) else 0,
-                "trail": trail,
+                # Opaque, as over paper: the pieces of a path overlap.
+                "trail": ["line", mixed(ink, LIGHT.paper, int(ink[7:], 16) / 255), width, style],
             }
-            for i, (body, kind, color, trail) in enumerate(
+            for i, (body, kind, color, (ink, width, style)) in enumerate(
                 zip(scenario.bodies, kinds, colors, trails, strict=True)
             )
         ]
@@ -211,60 +182,79 @@ class _Content:
 
     # -- the panel ----------------------------------------------------------------------------
 
-    def _add_panel(self) -> list[dict[str, Any]]:
-        """Add commands, efforts and readings; return how the readings are said in words."""
-        record = self.record
-        command, effort = record.command[self.kept], record.effort[self.kept]
-        step = max(float(np.abs(command).max(initial=0.0)), 1e-6) / 2**14
+    def _add_panel(self) -> None:
+        """Add commands and efforts."""
 
-        def packed(every: int) -> tuple[Columns, list[dict[str, Any]], int]:
+        def packed(every: int) -> Columns:
             columns = Columns()
-            columns.add("command", rounded(command[::every], step), order=1, step=step, every=every)
-            columns.add("effort", rounded(effort[::every], 1e-3), order=1, step=1e-3, every=every)
-            readings, words = pack_readings(self.carried, every)
-            columns.take(readings)
-            return columns, words, len(command[::every])
+            for name in ("command", "effort"):
+                values = getattr(self.record, name)
+                step = max(float(np.abs(values).max(initial=0.0)), 1e-6) / 2**15
+                rows = rounded(values[self.kept][::every], step)
+                columns.add(name, rows, order=1, step=step, every=every)
+            return columns
 
-        words: list[dict[str, Any]] = self._fit(
-            "commands and readings in the panel", PANEL, packed
-        )[0]
-        return words
+        self._fit("commands in the panel", PANEL, packed)
 
     def _add_marks(self) -> list[dict[str, Any]]:
         """Add the rows that have marks on the time bar; return which kinds there are."""
-        kinds = []
-        for kind, rows in marks_of(self.record).items():
-            if rows:
-                at = np.minimum(np.searchsorted(self.kept, rows), len(self.kept) - 1)
-                self.columns.add(f"marks:{kind}", np.unique(at), order=1)
-                kinds.append(kind)
+        found = {kind: rows for kind, rows in marks_of(self.record).items() if rows}
+        for kind, rows in found.items():
+            at = np.minimum(np.searchsorted(self.kept, rows), len(self.kept) - 1)
+            self.columns.add(f"marks:{kind}", np.unique(at), order=1)
         return [
             {"kind": kind, "above": mark.above, "below": mark.below, "meaning": mark.meaning}
             for kind, mark in MARKS.items()
-            if kind in kinds
+            if kind in found
         ]
 
     # -- layers -------------------------------------------------------------------------------
 
+    def _table(self) -> list[dict[str, Any]]:
+        """Return the layers for the page, the lowest first."""
+        stand = standing()
+        return [
+            {
+                "name": layer.name,
+                "title": layer.title,
+                "key": layer.key,
+                "switch": layer.switch,
+                "along": layer.along,
+                "on": layer.at_first(self.scenario.animation),
+                "stands": layer in stand,
+            }
+            for layer in LAYERS
+        ]
+
     def _add_layers(self) -> dict[str, dict[str, Any]]:
-        """Add all layers but those that the page makes of poses and readings; return headers."""
+        """Add all layers but those that the page makes of poses; return headers."""
         headers: dict[str, dict[str, Any]] = {}
-        moving = []
+        moving: dict[str, Layer] = {}
         for layer in LAYERS:
-            if layer.shapes is None or layer.name in ("trails", "sensors"):
+            if layer.shapes is None or layer.name == "trails":
                 continue
             if layer.stands:
                 drawings = self._standing(layer)
             elif layer.each is not None:
                 drawings = self._carried(layer)
             else:
-                moving.append(layer)
+                moving[layer.name] = layer
                 continue
             if drawings:
-                columns, header, _ = pack(layer.name, drawings, 1, self.size * FINE)
+                columns, headers[layer.name] = pack(layer.name, drawings, self.size * FINE)
                 self.columns.take(columns)
-                headers[layer.name] = header
-        return headers | self._add_moving(moving)
+        count = len(self.kept)
+        stride = -(-count // max(min(MOST, CROWD // len(self.scenario.bodies)), 1))
+        rows = sorted({*range(0, count, stride), count - 1})
+        scenes: dict[str, list[Flat]] = {name: [] for name in moving}
+        for row in rows:
+            frame = self.record.frame(int(self.kept[row]))
+            for name, layer in moving.items():
+                scenes[name].append(_drawn(layer, frame))
+        for name in sorted(moving, key="sensors".__eq__):  # the last ones
+            if any(scene.styles for scene in scenes[name]):
+                headers[name] = self._add_rows(moving[name], rows, scenes[name], stride)
+        return headers
 
     def _standing(self, layer: Layer) -> list[Drawing]:
         """Return a layer that stands still until the scenario is changed."""
@@ -274,7 +264,7 @@ class _Content:
         return [Drawing(rows, [_drawn(layer, record.frame(row)) for row in changes])]
 
     def _carried(self, layer: Layer) -> list[Drawing]:
-        """Return a layer that depends on poses alone: for each body once, or by its heading."""
+        """Return a layer that moves with bodies: one scene for each, in its frame."""
         assert layer.each is not None
         each, found = layer.each, []
 
@@ -284,112 +274,46 @@ class _Content:
             return flat(scene.shapes)
 
         for body in range(len(self.scenario.bodies)):
-            here, there = at(body, np.zeros(3)), at(body, sensors.ELSEWHERE)
-            if not here.styles:
-                continue
-            turned = follows(here, there, sensors.ELSEWHERE)
-            if turned or follows(here, there, sensors.ELSEWHERE * (1, 1, 0)):
-                found.append(Drawing([0], [here], body, upright=not turned))
-                continue
-            stride = -(-len(self.kept) // OTHER_ROWS)
-            rows = range(0, len(self.kept), stride)
-            headings = self.poses[rows, 2, body].tolist()
-            scenes = [at(body, np.array([0.0, 0.0, theta])) for theta in headings]
-            found.append(Drawing(rows, scenes, body, upright=True))
+            here = at(body, np.zeros(3))
+            if here.styles:
+                turns = follows(here, at(body, ELSEWHERE), ELSEWHERE)
+                found.append(Drawing([0], [here], body, upright=not turns))
         return found
 
-    def _add_moving(self, layers: list[Layer]) -> dict[str, dict[str, Any]]:
-        """Add layers that are drawn row by row, at as many rows as there is room for."""
-        count = len(self.kept)
-        crowd = CROWD // len(self.scenario.bodies)
-        most = {each.name: min(LAYER_ROWS.get(each.name, OTHER_ROWS), crowd) for each in layers}
-        strides = {name: -(-count // max(rows, 1)) for name, rows in most.items()}
-        scenes: dict[str, dict[int, Flat]] = {layer.name: {} for layer in layers}
-        rows = {count - 1, *(k for stride in strides.values() for k in range(0, count, stride))}
-        for row in sorted(rows):
-            frame = self.record.frame(int(self.kept[row]))
-            for layer in layers:
-                if row % strides[layer.name] == 0 or row == count - 1:
-                    scenes[layer.name][row] = _drawn(layer, frame)
-        headers = {}
-        for layer in layers:
-            found = scenes[layer.name]
-            if any(scene.styles for scene in found.values()):
-                headers[layer.name] = self._add_rows(layer, found, strides[layer.name])
-        return headers
+    def _add_rows(
+        self, layer: Layer, rows: list[int], scenes: list[Flat], stride: int
+    ) -> dict[str, Any]:
+        """Add the scenes of a layer, at rows of so many each; return their header."""
+        header: dict[str, Any] = {}
 
-    def _add_rows(self, layer: Layer, scenes: dict[int, Flat], stride: int) -> dict[str, Any]:
-        """Add the scenes of a layer, by row; return their header.
+        def packed(every: int) -> Columns:
+            chosen = sorted({*range(0, len(rows), every), len(rows) - 1})
+            drawing = Drawing([rows[k] for k in chosen], [scenes[k] for k in chosen])
+            columns, told = pack(layer.name, [drawing], self.size * COARSE)
+            header.update(told, every=every * stride, leap=LEAP * self.size)
+            return columns
 
-        The contacts of the panel stand beside the arrows, so they are those of the same rows.
+        seen = any(scene.styles for scene in scenes[:-1])
+        room = ROOM - self.columns.size if layer.name == "sensors" else LAYER
+        self._fit(layer.title.lower() if seen else "", room, packed, stride)
+        return header
+
+    def _fit(self, what: str, room: int, pack: Callable[[int], Columns], stride: int = 1) -> None:
+        """Add columns of at most `room` bytes, and a note.
+
+        what: for the note; "" for none. pack: returns the columns of one row in so many of those
+        that there are, which are one in `stride` of the file.
         """
-        drawings = [Drawing([*scenes], [*scenes.values()])]
-
-        def packed(every: int) -> tuple[Columns, dict[str, Any], int]:
-            columns, header, most = pack(layer.name, drawings, every, self.size * COARSE)
-            if layer.name == "forces" and len(self.record.contacts):
-                columns.take(pack_contacts(self.record, self.kept, kept_rows(drawings[0], every)))
-            return columns, header, most
-
-        seen = any(scenes[row].styles for row in [*scenes][:-1])
-        room = LAYER_ROOM.get(layer.name, OTHER_ROOM)
-        header, every = self._fit(layer.title.lower() if seen else "", room, packed, stride)
-        return {**header, "every": every, "leap": LEAP * self.size}
-
-    def _add_sensors(self, drawn: dict[str, Any]) -> None:
-        """Add what sensors draw to `drawn`, at as many rows as there is room for."""
-        if self.record.missing:
-            listed = ", ".join(self.record.missing)
-            self.notes.append(f"not drawn, since their code is not in the record: {listed}")
-        if not self.carried:
-            return
-        drawings, stride = sensors.drawings(self.carried, self.scenario.colors)
-        header, every = self._fit(
-            "what sensors draw",
-            ROOM - self.columns.size - self.columns.beside,
-            lambda every: pack("sensors", drawings, every, self.size * OF_SENSORS),
-            stride,
-        )
-        drawn["sensors"] = {**header, "held": every}
-
-    def _fit(
-        self, what: str, room: int, pack: Callable[[int], tuple[Columns, Any, int]], stride: int = 1
-    ) -> tuple[Any, int]:
-        """Add columns of at most `room` bytes, and a note; return what is said of them, and stride.
-
-        what: for the note; "" for none. pack: returns the columns of one row in so many, what is
-        said of them, and the number of their rows. stride: the first to try; its multiples follow
-        until the columns fit, or until one row is left.
-        """
-        times = 1
+        every = 1
         while True:
-            columns, told, rows = pack(times * stride)
+            columns = pack(every)
             size = columns.size + columns.beside
-            if size <= room or rows <= 1:
+            if size <= room or every >= len(self.kept):
                 break
-            times = max(times + 1, int(times * size / max(room, 1)))
-        every = times * stride
+            every = max(every + 1, int(every * size / max(room, 1)))
         self.columns.take(columns)
-        if every > 1 and what:
-            self.notes.append(f"{what}: one row in {every} of this file")
-        return told, every
-
-
-def _table(animation: Animation) -> list[dict[str, Any]]:
-    """Return the layers for the page, the lowest first."""
-    stand = standing()
-    return [
-        {
-            "name": layer.name,
-            "title": layer.title,
-            "key": layer.key,
-            "switch": layer.switch,
-            "along": layer.along,
-            "on": layer.at_first(animation),
-            "stands": layer in stand,
-        }
-        for layer in LAYERS
-    ]
+        if every * stride > 1 and what:
+            self.notes.append(f"{what}: one row in {every * stride} of this file")
 
 
 def _legend(legend: Legend) -> dict[str, Any]:
@@ -433,78 +357,3 @@ def _gaps(ways: Float, poses: Float, kept: Int, size: float) -> NDArray[np.bool_
     gone = np.diff(ways[kept], axis=0, prepend=ways[:1])
     line = np.hypot(*np.diff(poses[kept, :2], axis=0, prepend=poses[:1, :2]).swapaxes(0, 1))
     return np.asarray(gone - line > np.maximum(0.1 * gone, size / 500))
-
-
-# -- the numbers in the panel ---------------------------------------------------------------------
-
-MAX_NUMBERS = 8
-"""The most numbers of a reading that is shown as text."""
-
-
-def pack_contacts(record: Rows, kept: Int, shown: Sequence[int]) -> Columns:
-    """Return the contacts of rows as columns, the strongest of each row.
-
-    kept: the record's rows of the replay. shown: those of them that have arrows.
-    """
-    columns = Columns()
-    strongest = force_scale(record.scenario).most
-    rows = record.contact_rows
-    place = np.searchsorted(kept, rows)
-    at = np.minimum(place, len(kept) - 1)
-    chosen = np.flatnonzero((kept[at] == rows) & np.isin(at, shown))
-    contacts, at = record.contacts[chosen], at[chosen]
-    size = np.linalg.norm(mean_forces(contacts, record.scenario.sampling_time), axis=1)
-    order = np.lexsort((-size, at))
-    rank = np.arange(len(order)) - np.searchsorted(at[order], at[order], side="left")
-    order = order[(rank < MAX_CONTACTS) & (size[order] >= FAINTEST * strongest)]
-    contacts, at, size = contacts[order], at[order], size[order]
-    columns.add("contacts:shown", np.array(shown), order=1)
-    columns.add("contacts:row", at, order=1)
-    columns.add("contacts:a", contacts["a"].astype(int), order=1)
-    columns.add("contacts:b", contacts["b"].astype(int), order=1)
-    words, said = np.unique([in_newtons(each) for each in size.tolist()], return_inverse=True)
-    columns.add("contacts:force", said, words=words.tolist())
-    return columns
-
-
-def pack_readings(sensors: list[Carried], every: int) -> tuple[Columns, list[dict[str, Any]]]:
-    """Return the readings of few numbers as columns, and the names and units for their text."""
-    columns = Columns()
-    found: list[dict[str, Any]] = []
-    for each in sensors:
-        title, values, quantities = _said(each, each.readings[::every])
-        if not 0 < values.shape[1] <= MAX_NUMBERS:
-            continue
-        finite = values[np.isfinite(values)]
-        step = max(float(np.abs(finite).max(initial=0.0)), 1e-6) / 2**15
-        name = f"reading{len(found)}"
-        columns.add(name, rounded(values, step), order=1, step=step, every=every)
-        found.append({
-            "name": title,
-            "robot": each.robot,
-            "column": name,
-            "parts": [[q.name, q.unit, q.kind] for q in quantities],
-        })  # fmt: skip
-    return columns, found
-
-
-def _said(each: Carried, readings: NDArray[Any]) -> tuple[str, Float, list[Quantity]]:
-    """Return a sensor's title, and its readings as numbers (R, m) to be read, with what each is.
-
-    Of distances along many beams, the nearest and its direction.
-    """
-    sensor, values = each.sensor, readings.reshape(len(readings), -1).astype(float)
-    fan, count = sensor.fan, values.shape[1]
-    if fan is not None and count == len(fan.angles) > MAX_NUMBERS:
-        near = values.argmin(axis=1)
-        angles = sensor.mount[2] + np.asarray(fan.angles)[near]
-        nearest = np.column_stack([values[np.arange(len(values)), near], angles])
-        return f"{each.name}, nearest", nearest, [DISTANCE, ANGLE]
-    stated = list(sensor.quantities) or [Quantity("value")]
-    if count % len(stated) == 0 and len(stated) > 1:
-        return each.name, values, stated * (count // len(stated))
-    first = stated[0]
-    if count == 1:
-        return each.name, values, [first]
-    each_one = [Quantity(f"{first.name} {k}", first.unit, first.kind) for k in range(count)]
-    return each.name, values, each_one

@@ -55,7 +55,6 @@ async function readRecord(text) {
   const columns = await Promise.all(entries.map(async ([, entry]) =>
     new Column(entry, await inflated(body.subarray(entry.at, entry.at + entry.bytes)))));
   record.columns = Object.fromEntries(entries.map(([name], k) => [name, columns[k]]));
-  Object.assign(darkened, record.dark);
   return record;
 }
 

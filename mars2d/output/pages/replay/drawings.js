@@ -2,7 +2,7 @@
 
 class Drawings {
   constructor(header, columns) {
-    Object.assign(this, { styles: header.styles, step: header.step, every: header.every, leap: header.leap, held: header.held });
+    Object.assign(this, { styles: header.styles, step: header.step, every: header.every, leap: header.leap });
     this.between = [];
     this.known = new Map();
     this.orders = header.orders.map((flat) => {
@@ -41,11 +41,6 @@ class Drawings {
   sceneAt({ first, end }, row) {
     const found = countUpTo(this.rows, row, first, end) - 1;
     return found < first ? -1 : found;
-  }
-
-  // The row at which what is seen at a row was so; of each `held` rows, the file has the last one.
-  rowOf(scene, row) {
-    return Math.max(this.rows[scene], Math.floor((row + 1) / this.held) * this.held - 1);
   }
 
   paint(painter, scene) {

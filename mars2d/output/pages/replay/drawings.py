@@ -111,15 +111,13 @@ def follows(here: Flat, there: Flat, pose: Float) -> bool:
 class Drawing:
     """Scenes over time: `scenes[k]` is seen from row `rows[k]` on.
 
-    body: the index of the body in whose frame they are; None: in the world. stays: whether they use
-    the body's pose at the last row, without interpolation. upright: whether they move with the body
-    but do not turn.
+    body: the index of the body in whose frame they are; None: in the world. upright: whether they
+    move with the body but do not turn.
     """
 
     rows: Sequence[int]
     scenes: Sequence[Flat]
     body: int | None = None
-    stays: bool = False
     upright: bool = False
 
 
@@ -144,30 +142,26 @@ class Book:
         return self.orders.setdefault(tuple(listed), len(self.orders))
 
 
-def pack(
-    name: str, drawings: Sequence[Drawing], every: int, step: float
-) -> tuple[Columns, dict[str, Any], int]:
-    """Return drawings as columns, their header, and the most scenes of one of them.
+def pack(name: str, drawings: Sequence[Drawing], step: float) -> tuple[Columns, dict[str, Any]]:
+    """Return drawings as columns, and their header; step: metres.
 
-    every: of each `every` rows, the last scene is kept, and the first of all. step: metres. A shape
-    is written as the difference from the last one at its place with as many numbers.
+    A shape is written as the difference from the last one at its place with as many numbers.
     """
     columns, book = Columns(), Book()
     rows: list[int] = []
     orders: list[int] = []
     numbers: list[Int] = []
     heads: list[dict[str, Any]] = []
-    most = 0
     for drawing in drawings:
-        before: tuple[int, Int] | None = None
+        before: tuple[int, bytes] | None = None
         last: dict[tuple[int, int], Int] = {}
-        scenes = 0
-        for row, scene in _last_of_each(drawing, every):
-            order = book.order_of(scene, columns, name)
+        first = len(rows)
+        for row, scene in zip(drawing.rows, drawing.scenes, strict=True):
             values = rounded(scene.numbers, step)
-            if before is not None and before[0] == order and np.array_equal(before[1], values):
+            now = book.order_of(scene, columns, name), values.tobytes()
+            if now == before:
                 continue
-            before = order, values
+            before = now
             start = 0
             for k, count in enumerate(scene.counts):
                 part = values[start : start + count]
@@ -175,11 +169,9 @@ def pack(
                 last[k, count] = part
                 start += count
             rows.append(row)
-            orders.append(order)
-            scenes += 1
-        most = max(most, scenes)
-        head = {"scenes": scenes, "body": drawing.body, "stays": drawing.stays}
-        heads.append({**head, "upright": True} if drawing.upright else head)
+            orders.append(now[0])
+        head = {"scenes": len(rows) - first, "body": drawing.body, "upright": drawing.upright}
+        heads.append(head)
     columns.add(f"{name}:rows", np.array(rows, dtype=int), order=1)
     columns.add(f"{name}:orders", np.array(orders, dtype=int))
     joined = np.concatenate(numbers) if numbers else np.empty(0, dtype=int)
@@ -192,17 +184,4 @@ def pack(
         "orders": [list(order) for order in book.orders],
     }
     columns.beside = len(zlib.compress(json.dumps(header).encode()))
-    return columns, header, most
-
-
-def kept_rows(drawing: Drawing, every: int) -> list[int]:
-    """Return the rows of which `pack` keeps the scenes."""
-    return [row for row, _ in _last_of_each(drawing, every)]
-
-
-def _last_of_each(drawing: Drawing, every: int) -> list[tuple[int, Flat]]:
-    """Return the first row and scene, and the last ones of each `every` rows."""
-    pairs = list(zip(drawing.rows, drawing.scenes, strict=True))
-    last = {row // every: (row, scene) for row, scene in pairs}
-    first = [pairs[0]] if pairs and pairs[0][0] < last[pairs[0][0] // every][0] else []
-    return first + list(last.values())
+    return columns, header

@@ -28,15 +28,15 @@ class Legend {
     return short.length ? short[short.length - 1] : lengths[0];
   }
 
-  draw(look, camera, ratio, ui, names) {
+  draw(look, camera, ratio, names) {
     const seen = this.plates.map(({ layer }) => Boolean(look[layer]) && names.includes(layer));
-    const state = [camera.scale, look.dark, ratio, ui, ...seen].join();
+    const state = [camera.scale, ratio, ...seen].join();
     if (state === this.drawn) return;
     this.drawn = state;
     this.plates.forEach((each, k) => {
       each.plate.hidden = !seen[k];
       if (!seen[k]) return;
-      const picture = (canvas, shapes) => this.picture(canvas, each.room, shapes, look.dark, ratio, ui);
+      const picture = (canvas, shapes) => this.picture(canvas, each.room, shapes, ratio);
       if (each.ruler) {
         const [metres, words] = this.measure(each, camera.scale), half = metres * camera.scale / 2;
         each.ruler.said.textContent = words;
@@ -46,11 +46,11 @@ class Legend {
     });
   }
 
-  picture(canvas, room, shapes, dark, ratio, ui) {
+  picture(canvas, room, shapes, ratio) {
     Object.assign(canvas, { width: Math.round(room * ratio), height: Math.round(ROW * ratio) });
-    Object.assign(canvas.style, { width: `${room * ui}px`, height: `${ROW * ui}px` });
+    Object.assign(canvas.style, { width: `${room}px`, height: `${ROW}px` });
     const context = canvas.getContext("2d");
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    new Painter(context, { x: room / 2, y: ROW / 2, scale: 1 }, dark, null).shapes(shapes);
+    new Painter(context, { x: room / 2, y: ROW / 2, scale: 1 }, null).shapes(shapes);
   }
 }

@@ -13,9 +13,10 @@ class Marks {
     }
   }
 
-  draw(clock, dark) {
+  draw(clock) {
     const { canvas, record } = this, { width, height } = canvas.getBoundingClientRect();
-    const ratio = window.devicePixelRatio || 1, state = [width, height, ratio, dark].join();
+    const ratio = window.devicePixelRatio || 1, dark = document.documentElement.className;
+    const state = [width, height, ratio, dark].join();
     if (state === this.drawn) return;
     this.drawn = state;
     Object.assign(canvas, { width: Math.round(width * ratio), height: Math.round(height * ratio) });

@@ -6,8 +6,8 @@ const HEAD_LENGTH = 4, HEAD_WIDTH = 3.4, SHORTEST = 1.6; // of arrows, in widths
 const FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif";
 
 class Painter {
-  constructor(context, camera, dark, images) {
-    Object.assign(this, { context, camera, dark, images });
+  constructor(context, camera, images) {
+    Object.assign(this, { context, camera, images });
     this.place = null;
   }
 
@@ -32,10 +32,6 @@ class Painter {
     return this.camera.y - this.camera.scale * (this.place[1] + this.place[3] * x + this.place[2] * y);
   }
 
-  color(value) {
-    return shade(value, this.dark);
-  }
-
   shapes(list) {
     for (const [style, numbers] of list) this.shape(style, numbers, 0, numbers.length, 1);
   }
@@ -48,11 +44,12 @@ class Painter {
   ink(fill, stroke, width) {
     const context = this.context;
     if (fill) {
-      context.fillStyle = this.color(fill);
+      context.fillStyle = fill;
       context.fill();
     }
     if (stroke) {
-      context.strokeStyle = this.color(stroke);
+      context.lineJoin = "round";
+      context.strokeStyle = stroke;
       context.lineWidth = width;
       context.stroke();
     }
@@ -128,15 +125,11 @@ class Painter {
     else this.ink(null, color, Math.max(1, 0.7 * width));
   }
 
+  // Write words; an anchor "left" puts their left end at the point.
   text([, text, color, size, anchor, halo], n, k, count, step) {
-    const x = n[k] * step, y = n[k + 1] * step;
-    this.words(text, this.across(x, y), this.down(x, y), color, size, anchor, halo);
-  }
-
-  // Write at a pixel; an anchor "left" puts the text's left end there.
-  words(text, x, y, color, size, anchor, halo, weight = "") {
+    const x = this.across(n[k] * step, n[k + 1] * step), y = this.down(n[k] * step, n[k + 1] * step);
     const context = this.context, lines = text.split("\n"), height = 1.25 * size, gap = 4;
-    context.font = `${weight} ${size}px ${FONT}`;
+    context.font = `${size}px ${FONT}`;
     context.textBaseline = "middle";
     context.textAlign = anchor === "left" ? "left" : anchor === "right" ? "right" : "center";
     const left = x + (anchor === "left" ? gap : anchor === "right" ? -gap : 0);
@@ -145,13 +138,12 @@ class Painter {
     if (anchor === "below") middle = y + gap + height / 2;
     for (const line of lines) {
       if (halo) {
-        context.strokeStyle = this.color(halo);
+        context.strokeStyle = halo;
         context.lineWidth = 3;
         context.lineJoin = "round";
         context.strokeText(line, left, middle);
-        context.lineJoin = "miter";
       }
-      context.fillStyle = this.color(color);
+      context.fillStyle = color;
       context.fillText(line, left, middle);
       middle += height;
     }
@@ -160,11 +152,7 @@ class Painter {
   arrow([, fill, stroke, width], n, k, count, step) {
     const [ax, ay, bx, by] = [n[k], n[k + 1], n[k + 2], n[k + 3]].map((v) => v * step);
     const x = this.across(ax, ay), y = this.down(ax, ay);
-    this.dart(x, y, this.across(bx, by) - x, this.down(bx, by) - y, fill, stroke, width);
-  }
-
-  // An arrow from a pixel on, by so many pixels.
-  dart(x, y, dx, dy, fill, stroke, width) {
+    const dx = this.across(bx, by) - x, dy = this.down(bx, by) - y;
     const context = this.context, length = Math.hypot(dx, dy);
     if (length < 0.5) return;
     const wide = Math.min(width, length / (SHORTEST * HEAD_LENGTH)), half = wide / 2;
@@ -185,9 +173,7 @@ class Painter {
     const bottom = this.down(0, n[k + 2] * step), top = this.down(0, n[k + 3] * step);
     const context = this.context;
     context.imageSmoothingEnabled = (right - left) / picture.width < 6; // large pixels are sharp
-    if (this.dark) context.filter = "invert(0.92) hue-rotate(180deg)";
     context.drawImage(picture, left, top, right - left, bottom - top);
-    context.filter = "none";
   }
 }
 

@@ -3,8 +3,6 @@
 const MINUS = "\u2212";
 
 function inWords(value, unit = "", kind = "number") {
-  if (Number.isNaN(value)) return kind === "flag" ? "no" : "nothing";
-  if (kind === "flag") return value > 0.5 ? "yes" : "no";
   if (kind === "angle") {
     const turned = ((value * 180 / Math.PI + 180) % 360 + 360) % 360 - 180;
     return `${Math.round(turned) + 0}°`.replace("-", MINUS);
@@ -29,6 +27,7 @@ class Panel {
     const { picture } = this, { record } = picture, about = picture.bodies[body];
     this.element.querySelector("h2").textContent = about.name;
     this.element.querySelector(".kind").textContent = about.kind;
+    this.element.querySelector(".dot").style.background = about.color;
     const list = this.element.querySelector("dl");
     list.replaceChildren();
     this.rows = [];
@@ -50,55 +49,15 @@ class Panel {
       row("command", () => about.commands.map(([name, unit, kind], k) =>
         `${name} ${inWords(command.at(picture.row, k * n + body), unit, kind)}`));
       row("effort", () => {
-        const effort = picture.effort(body);
+        const effort = record.columns.effort.at(picture.row, body);
         return [effort >= record.slipping ? "slips" : `${Math.round(100 * effort)} %`];
       });
-      for (const reading of record.readings.filter((each) => each.robot === body)) {
-        const column = record.columns[reading.column];
-        row(reading.name, () => this.reading(reading.parts, (k) => column.at(picture.row, k)));
-      }
     }
-    if (record.columns["contacts:row"]) row("contacts", () => this.contacts(body));
-  }
-
-  // What a sensor reads; of things seen at a distance in a direction, those that are seen.
-  reading(parts, value) {
-    const say = ([, unit, kind], k) => inWords(value(k), unit || (kind === "distance" ? "m" : ""), kind);
-    if (parts.length > 1 && parts[0][2] === "distance" && parts[1][2] === "angle") {
-      const seen = parts.map((_, k) => k).filter((k) => k % 2 === 0 && Number.isFinite(value(k)));
-      return seen.length ? seen.map((k) => `${say(parts[k], k)} at ${say(parts[k + 1], k + 1)}`) : ["nothing"];
-    }
-    if (parts.length === 1) return [say(parts[0], 0)];
-    return parts.map((part, k) => `${part[0]} ${say(part, k)}`);
-  }
-
-  contacts(body) {
-    const mine = this.picture.contacts().filter(({ a, b }) => a === body || b === body);
-    if (!mine.length) return ["none"];
-    const name = (other) => (other < 0 ? `obstacle ${-1 - other}` : this.picture.bodies[other].name);
-    return mine.map(({ a, b, force }) => `${name(a === body ? b : a)} ${force}`);
-  }
-
-  // Go to the other side where it hides the body, unless it would do so there as well.
-  stepAside() {
-    if (this.picked < 0) return;
-    const { picture, element } = this, { camera } = picture;
-    const [x, y, radius] = picture.bound(this.picked), near = picture.ui * (camera.scale * radius + 16);
-    const px = picture.ui * (camera.x + camera.scale * x), py = picture.ui * (camera.y - camera.scale * y);
-    const hides = () => {
-      const { offsetLeft: left, offsetTop: top, offsetWidth: width, offsetHeight: height } = element;
-      return px > left - near && px < left + width + near && py > top - near && py < top + height + near;
-    };
-    if (!hides()) return;
-    element.classList.toggle("aside");
-    if (hides()) element.classList.toggle("aside");
   }
 
   // Say it as it is now.
-  write(dark) {
+  write() {
     if (this.picked < 0) return;
-    const color = shade(this.picture.bodies[this.picked].color, dark);
-    this.element.querySelector(".dot").style.background = color;
     for (const [words, say] of this.rows) {
       const parts = say();
       if (parts.join("\n") === words.dataset.said) continue;

@@ -9,12 +9,11 @@ const ACTIONS = [
   [["N", "Shift+N"], "next contact, previous contact", (page) => page.goToContact(false), (page) => page.goToContact(true)],
   [["+", "\u2212"], "faster, or slower", (page) => page.faster(1), (page) => page.faster(-1)],
   [["J"], "loop", (page) => page.setLoop(!page.clock.loop)],
-  [["A"], "choose layers", (page) => page.openLayers(!page.layersOpen)],
+  [["A"], "choose layers", (page) => page.openLayers(find("layers").hidden)],
   [["Shift+arrows"], "move the picture"],
   [["F"], "fit all into the view", (page) => page.fit()],
-  [["L"], "follow the selection", (page) => page.look.picked >= 0 && page.setFollow(!page.follow)],
   [["D"], "dark or light", (page) => page.setDark(!page.look.dark)],
-  [["Esc"], "clear the selection", (page) => (page.layersOpen ? page.openLayers(false) : page.pick(-1))],
+  [["Esc"], "clear the selection", (page) => (find("layers").hidden ? page.pick(-1) : page.openLayers(false))],
   [["F1", "?"], "this help", (page) => find("helping").showModal()],
 ];
 const LABELS = {
@@ -23,9 +22,16 @@ const LABELS = {
 }; // by what the browser calls them
 const BUTTONS = { // by their ids
   play: "Space", first: "Home", last: "End", back: "←", ahead: "→", loop: "J", fit: "F", dark: "D",
-  follow: "L", help: "F1", show: "A",
+  help: "F1", show: "A",
 };
 const ARROWS = { ArrowLeft: [40, 0], ArrowRight: [-40, 0], ArrowUp: [0, 40], ArrowDown: [0, -40] };
+
+// An element of the page with properties, and with elements or texts in it.
+function element(tag, properties, ...children) {
+  const made = Object.assign(document.createElement(tag), properties);
+  made.append(...children);
+  return made;
+}
 
 // What the key of a label does, if anything.
 function actionOf(label) {
@@ -50,7 +56,6 @@ class Replay {
     this.marks = new Marks(find("marks"), record, find("ticks"));
     this.look = Object.fromEntries(record.layers.map(({ name, on }) => [name, on]));
     this.look.picked = -1;
-    this.follow = false;
     this.drawn = "";
     this.said = 0;
     this.layers = record.layers.filter((layer) => layer.switch && this.has(layer.name));
@@ -162,24 +167,15 @@ class Replay {
       if (!event.target.closest("#layers, #show")) this.openLayers(false);
     });
     document.addEventListener("keydown", (event) => this.key(event));
-    this.leaveAfterClicks();
+    for (const kind of ["click", "change"]) { // what was clicked gives the keys back: Space plays again
+      document.addEventListener(kind, ({ target, detail }) => {
+        if (detail || kind === "change") target.closest("button, select")?.blur();
+      });
+    }
     const scheme = matchMedia("(prefers-color-scheme: dark)");
     scheme.addEventListener("change", (event) => this.setDark(event.matches));
     new ResizeObserver(() => this.resize()).observe(this.canvas);
     this.listenToPointers();
-  }
-
-  // What was clicked or chosen with a pointer gives the keys back: Space plays again.
-  leaveAfterClicks() {
-    let pointed = false;
-    document.addEventListener("pointerdown", () => (pointed = true), true);
-    document.addEventListener("keydown", () => (pointed = false), true);
-    for (const kind of ["click", "change"]) {
-      document.addEventListener(kind, ({ target }) => {
-        const left = kind === "click" ? target.closest("button") : target.closest("select");
-        if (pointed && left) left.blur();
-      });
-    }
   }
 
   // Drag, pinch, wheel and click on the picture.
@@ -190,7 +186,7 @@ class Replay {
       const [a, b] = [...held.values()];
       return { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, far: Math.hypot(a.x - b.x, a.y - b.y) };
     };
-    const at = (event) => ({ x: event.offsetX / picture.ui, y: event.offsetY / picture.ui });
+    const at = (event) => ({ x: event.offsetX, y: event.offsetY });
     canvas.addEventListener("pointerdown", (event) => {
       canvas.setPointerCapture(event.pointerId);
       if (held.size === 0) moved = 0;
@@ -209,13 +205,11 @@ class Replay {
         const now = spread();
         picture.camera.pan(now.x - old.x, now.y - old.y);
         if (old.far > 0) picture.camera.zoom(now.far / old.far, now.x, now.y);
-        this.setFollow(false);
       } else {
         held.set(event.pointerId, here);
         if (moved > (event.pointerType === "mouse" ? 3 : 8)) {
           canvas.classList.add("dragged");
           picture.camera.pan(here.x - before.x, here.y - before.y);
-          this.setFollow(false);
         }
       }
     });
@@ -248,7 +242,6 @@ class Replay {
     if (control === "SELECT" && event.key !== "Escape" && event.key !== "F1") return;
     if (control === "BUTTON" && (event.key === " " || event.key === "Enter")) return;
     if (slides && moves && !event.shiftKey && event.key !== "PageUp" && event.key !== "PageDown") return;
-    if (event.key.length === 1 && event.key !== " " && !find("letters").checked) return;
     const act = this.action(event.key, event.shiftKey);
     if (!act) return;
     event.preventDefault();
@@ -260,7 +253,6 @@ class Replay {
     if (shift && key in ARROWS) {
       return () => {
         this.picture.camera.pan(...ARROWS[key]);
-        this.setFollow(false);
       };
     }
     const layer = this.layers.find((each) => each.key === key.toLowerCase());
@@ -268,10 +260,6 @@ class Replay {
     const label = LABELS[key] ?? (key.length === 1 ? key.toUpperCase() : key);
     const act = (shift && actionOf(`Shift+${label}`)) || actionOf(label);
     return act && (() => act(this));
-  }
-
-  get layersOpen() {
-    return find("layers").classList.contains("open");
   }
 
   playOrPause() {
@@ -302,16 +290,12 @@ class Replay {
   }
 
   fit() {
-    this.setFollow(false);
     this.picture.camera.fit();
   }
 
   setDark(dark) {
     document.documentElement.classList.toggle("dark", dark);
     find("dark").setAttribute("aria-pressed", dark);
-    const style = getComputedStyle(document.documentElement);
-    const names = ["page", "paper", "grid", "grid-axis", "muted", "running"];
-    this.look.colors = Object.fromEntries(names.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
     this.look.dark = dark;
   }
 
@@ -333,22 +317,16 @@ class Replay {
   }
 
   openLayers(open) {
-    find("layers").classList.toggle("open", open);
+    find("layers").hidden = !open;
     find("show").setAttribute("aria-expanded", open);
   }
 
   pick(body) {
     if (body === this.look.picked) return;
     this.look.picked = body;
-    if (body < 0) this.setFollow(false);
     find("bodies").value = body;
     this.panel.pick(body);
     this.say(body < 0 ? "Nothing is picked" : `${this.record.bodies[body].name} is picked`);
-  }
-
-  setFollow(follow) {
-    this.follow = follow;
-    find("follow").setAttribute("aria-pressed", follow);
   }
 
   // Tell a screen reader.
@@ -357,14 +335,8 @@ class Replay {
   }
 
   resize() {
-    const root = document.documentElement, header = document.querySelector("header");
-    root.classList.remove("tight");
-    if (window.innerWidth <= 640 || header.scrollWidth > header.clientWidth) root.classList.add("tight");
     const { width, height } = this.canvas.getBoundingClientRect();
-    const ui = window.innerWidth >= 2400 ? 1.6 : 1; // on a wall all is larger
-    const ratio = Math.min(window.devicePixelRatio || 1, 3) * ui;
-    this.picture.ui = ui;
-    this.picture.resize(width / ui, height / ui, ratio, this.look.grid);
+    this.picture.resize(width, height, Math.min(window.devicePixelRatio || 1, 3), this.look.grid);
     this.drawn = "";
   }
 
@@ -381,19 +353,14 @@ class Replay {
 
   show(now) {
     const { clock, picture, look } = this, { camera } = picture;
-    const state = () => JSON.stringify([clock.position, clock.playing, camera.key, look, this.follow]);
+    const state = () => JSON.stringify([clock.position, clock.playing, camera.key, look]);
     if (this.drawn === state()) return;
     picture.move(clock.position);
-    if (this.follow && look.picked >= 0) {
-      camera.centerOn(picture.x[look.picked], picture.y[look.picked]);
-      camera.moved = true;
-    }
     picture.draw(look);
     this.drawn = state();
-    this.legend.draw(look, camera, picture.ratio, picture.ui, this.layers.map(({ name }) => name));
-    this.marks.draw(clock, look.dark);
-    this.panel.write(look.dark);
-    this.panel.stepAside();
+    this.legend.draw(look, camera, picture.ratio, this.layers.map(({ name }) => name));
+    this.marks.draw(clock);
+    this.panel.write();
     const row = Math.floor(clock.rowAt(clock.position) + 1e-9), time = `${this.seconds(clock.time)} / ${this.seconds(clock.end)} s`;
     find("slider").value = row;
     if (find("time").textContent !== time) find("time").textContent = time;

@@ -1,4 +1,4 @@
-"""A box: a rectangle that can be pushed."""
+"""Rectangles that can be pushed: a box, and a long, thin bar."""
 
 from __future__ import annotations
 
@@ -26,3 +26,17 @@ class Box(Prop):
     def shape(self) -> Shape:
         """The rectangle."""
         return rectangle(self.length, self.width)
+
+
+class Bar(Prop):
+    """A long, thin rectangle along its heading."""
+
+    sides: ClassVar[tuple[str, ...]] = ("length", "thickness")
+
+    length: float = number(default=1.0, low=1e-3, high=1e3, unit="m", doc="its length")
+    thickness: float = number(default=0.06, low=1e-3, high=1e3, unit="m", doc="its thickness")
+
+    @cached_property
+    def shape(self) -> Shape:
+        """The rectangle."""
+        return rectangle(self.length, self.thickness)
