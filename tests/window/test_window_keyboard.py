@@ -1,9 +1,5 @@
 """What the mouse does is done by the keyboard alone, too."""
 
-import pytest
-
-from tests.window.test_window_buttons import choose
-
 
 def test_a_menu_opens_on_what_is_selected_or_on_the_floor(open_window, room):
     window = open_window(0, experiment=str(room))
@@ -11,10 +7,10 @@ def test_a_menu_opens_on_what_is_selected_or_on_the_floor(open_window, room):
     assert "Show all" in window.settle()["menu"]
     window.press("Escape", "Tab", "Tab", "Tab", "F10")
     menu = window.shown.toolbar.menu
-    window.type("t")  # by its first letter
-    assert menu.chosen == "Twice as heavy"
+    window.type("pu")  # by its first letters
+    assert menu.chosen == "Push with a force ..."
     window.press("Return")
-    window.says("crate with a mass of 4 kg")
+    assert not menu.is_open
 
 
 def test_sliders_are_reached_and_set_by_keys(open_window, pushing):
@@ -50,15 +46,3 @@ def test_panels_are_scrolled_by_keys(open_window, tmp_path):
     window.press("shift+Prior", "shift+Prior", "shift+Prior")
     assert window.settle()["row"] == 0, "without Shift they are steps"
     assert lesson.scroll == 0
-
-
-def test_plots_are_saved_from_their_menu(open_window, pushing, tmp_path):
-    window = open_window(0, folder=tmp_path, experiment=str(pushing))
-    window.press("Right", "Right", "q")
-    choose(window, "Speed")
-    choose(window, "Save their numbers as CSV")
-    window.says("pushing_1.csv")
-    pytest.importorskip("matplotlib")
-    window.press("q")
-    choose(window, "Save the plots as a figure")
-    window.says("pushing_1.png")
