@@ -164,8 +164,6 @@ def test_the_time_bar_and_the_plot_are_scrubbed_and_the_wheel_zooms_all_arenas(c
     assert window.shows(lambda seen: differing(before, seen) > 500)
     window.press("f")
     window.until(lambda s: s["scale"] == scale)
-    window.do("mousemove", round(first) + 5, y, "click", 4)
-    window.until(lambda s: s["span"][1] < s["newest"])
 
 
 def test_looks_help_pictures_and_leaving(compare):

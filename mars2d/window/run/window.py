@@ -506,7 +506,7 @@ class Window(PlayerWindow):
         def entries() -> list[Entry]:
             plots = entries_of_scopes(self.player.frame, self.selected, self.scopes)
             figure = Entry("Save the plots as a figure", self._actions["figure"])
-            return [*plots, figure] if self.scopes.is_open else plots
+            return [figure, *plots] if self.scopes.is_open else plots
 
         self.toolbar.open("scopes", entries)
 
