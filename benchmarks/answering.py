@@ -3,7 +3,9 @@
 python benchmarks/answering.py [--presses 60] [--seconds 5]     (needs a display, or xvfb-run)
 
 The key → is pressed at random moments, 0.1 to 1.2 s apart, in a paused window of `coverage_square`.
-The second window has 1280 x 720 pixels, 100 robots in motion and three scopes of all of them.
+The second window has 1280 x 720 pixels, 100 robots in motion and three scopes of all of them. In
+the third one, 98 robots press to the middle, with forces, impulses and velocities; there, what a
+picture takes is the processor's time.
 """
 
 from __future__ import annotations
@@ -14,10 +16,11 @@ import statistics
 import threading
 import time
 from math import inf
+from typing import Any
 
 import pygame
 
-from mars2d import Robot, Scenario
+from mars2d import Holonomic, Robot, Scenario
 from mars2d.scenario.experiment import open_experiment
 from mars2d.window.run.window import Window
 from mars2d.world.timeline import Timeline
@@ -32,6 +35,7 @@ class Timed(Window):
         super().__init__(*arguments)  # type: ignore[arg-type]
         self.taken: list[float] = []
         self.shown: list[float] = []
+        self.costs: list[float] = []
 
     def press(self) -> None:
         """Press the key again and again, from another thread."""
@@ -43,7 +47,9 @@ class Timed(Window):
             pygame.event.post(pygame.Event(pygame.KEYDOWN, key))
 
     def _show_picture(self, screen: pygame.Surface) -> None:
+        before = time.process_time()
         super()._show_picture(screen)
+        self.costs.append(time.process_time() - before)
         now, row = time.perf_counter(), self.player.source.row
         self.shown.append(now)
         if row != self.row and self.pressed < now:
@@ -68,8 +74,24 @@ def crowd() -> Scenario:
     )
 
 
+def throng() -> Scenario:
+    """Return 98 robots that press to the middle."""
+
+    def inwards(robot: Any) -> tuple[float, float]:
+        x, y, _ = robot.pose
+        return -x, -y
+
+    places = [(0.45 * (k % 14 - 6.5), 0.45 * (k // 14 - 3), 0.0) for k in range(98)]
+    robot = Robot(drive=Holonomic(max_linear_speed=0.5), controller=inwards, sees="positions")
+    return Scenario(
+        robots=[robot.replace(pose=pose) for pose in places],
+        workspace=[(-4, -3), (4, -3), (4, 3), (-4, 3)],
+        sampling_time=0.05,
+    )
+
+
 def main() -> None:
-    """Print both figures."""
+    """Print all figures."""
     parser = argparse.ArgumentParser(description="How quickly a window answers.")
     parser.add_argument("--presses", type=int, default=60)
     parser.add_argument("--seconds", type=float, default=5.0)
@@ -92,6 +114,15 @@ def main() -> None:
     late = [each for each in many.shown if each > many.shown[0] + 2]
     rate = (len(late) - 1) / (late[-1] - late[0])
     print(f"{len(robots)} robots, three scopes: {rate:.0f} pictures a second")
+
+    pressing = Timed(Timeline(open_experiment(throng())), 1.0, (1280, 720))
+    pressing.layers = pressing.layers.switched(forces=True, impulses=True, velocities=True)
+    threading.Timer(arguments.seconds + 4, lambda: setattr(pressing, "_open", False)).start()
+    pressing.run()
+    late = pressing.costs[len(pressing.costs) // 2 :]
+    contacts = len(pressing.player.frame.contacts)
+    each = 1000 * statistics.median(late)
+    print(f"98 robots with {contacts} contacts and their forces: {each:.1f} ms a picture")
 
 
 if __name__ == "__main__":

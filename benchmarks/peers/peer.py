@@ -317,12 +317,14 @@ class Run:
         room = 2 * scene.sampling_time * scenes.SPEED + 0.01
         if not self.peer.ROUND:
             room += scene.radius
-        alone = np.minimum(*self._gaps(before, 2 * room))[: len(way)] > room
-        taut = {
+        apart = np.minimum(*self._gaps(before, 2 * room)) > room
+        alone = apart[: len(way)]
+        felt = {
             k for i, k, length in scene.ropes
             if np.hypot(*(before[i] - before[len(way) + k])[:2]) > length - room
+            or not apart[len(way) + k]
         }  # fmt: skip
-        alone[[i for i, k, _ in scene.ropes if k in taut]] = False  # it moves what all tow
+        alone[[i for i, k, _ in scene.ropes if k in felt]] = False  # all that tow it feel that
         # Who was thrown off its command has a step to come back to it.
         free, self._alone = alone & self._alone, alone
         before, after = before[: len(way)], after[: len(way)]

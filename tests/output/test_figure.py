@@ -32,7 +32,6 @@ from mars2d.sensors import Proximity
 from tests.cases import each_case
 from tests.processes import PATIENCE
 
-BLUE, RED = "#0072b2", "#d55e00"
 CHEVRON = [(2.0, 2.0), (4.0, 4.0), (2.0, 3.0), (0.0, 4.0)]
 
 
@@ -100,28 +99,6 @@ def test_initial_poses_are_hollow_and_final_poses_filled_and_to_scale(record):
         assert initial[i].get_radius() == final[i].get_radius() == robot.diameter / 2
         np.testing.assert_allclose(initial[i].center, record.pose[0, :2, i])
         np.testing.assert_allclose(final[i].center, record.pose[-1, :2, i])
-
-
-def test_the_page_shows_white_in_a_start_and_colour_in_an_end(record):
-    ax = record.plot()
-    ax.figure.set_dpi(300)
-    x, y, theta = record.pose[0, :, 1]
-    behind = (x - 0.15 * np.cos(theta + 0.5), y - 0.15 * np.sin(theta + 0.5))
-    assert pixel(ax, behind) == "#ffffff"
-    x, y, theta = record.pose[-1, :, 1]
-    assert pixel(ax, (x - 0.15 * np.cos(theta), y - 0.15 * np.sin(theta))) == RED
-    assert pixel(ax, (2.0, 2.5)) == "#b8c0c8"
-    assert pixel(ax, (2.02, 3.5)) != "#b8c0c8", "a concave obstacle stays concave"
-
-
-def test_a_heading_points_to_the_front_and_the_centre_of_rotation_is_marked():
-    robot = Robot(pose=(1, 1, np.pi / 2), diameter=1.0, center_offset=0.2)
-    scenario = Scenario(robots=[robot], stop_time=1)
-    ax = mars2d.run(scenario, control=lambda world: [[0.0], [0.0]]).plot()
-    heading = ax.lines[-1].get_xydata()
-    np.testing.assert_allclose(heading, [(1, 0.8), (1, 1.3)], atol=1e-12)
-    np.testing.assert_allclose(discs(ax)[-2].center, (1, 0.8))
-    np.testing.assert_allclose(discs(ax)[-1].center, (1, 1))
 
 
 def test_axes_are_equal_labelled_and_titled(record):
@@ -206,14 +183,6 @@ def test_wake_styles_are_matlabs(record, style, marker, line):
     assert str(trail.get_marker()) == marker
     assert trail.get_linestyle() == line
     np.testing.assert_array_equal(trail.get_xydata(), record.pose[:, :2, 0])
-
-
-def test_robots_as_points_have_the_same_size_at_any_diameter(record):
-    ax = styled(record, show_real_shape=False)
-    assert discs(ax) == []
-    marks = [line for line in ax.lines if len(line.get_xdata()) == 1]
-    assert [mark.get_markerfacecolor() for mark in marks] == ["none", "none", BLUE, RED]
-    assert len({mark.get_markersize() for mark in marks}) == 1
 
 
 # -- what is in view --------------------------------------------------------------------------
@@ -352,12 +321,6 @@ def test_every_kind_of_shape_is_painted_with_its_opacity_and_anchor():
     assert high >= 4
 
 
-def test_what_an_addon_draws_is_in_the_figure():
-    ax = mars2d.run("own_sensor_and_addon").plot()
-    lamps = [disc for disc in discs(ax) if disc.radius == 0.3]
-    assert len(lamps) == 3
-
-
 # -- props, joints, forces ------------------------------------------------------------------------
 
 
@@ -393,14 +356,6 @@ def test_props_are_drawn_hollow_at_the_start_and_filled_at_the_end():
     assert any(np.allclose(p.get_xy().mean(axis=0), (-2.53, -2.03), atol=0.1) for p in start)
     np.testing.assert_allclose(end[0].get_xy()[:4].mean(axis=0), record.prop_pose[-1, :2, 0])
     assert len(filled(ax, Circle, NEUTRAL)) == 1
-
-
-def test_a_rope_is_drawn_from_end_to_end():
-    record = pushed()
-    ropes = [line.get_xydata() for line in record.plot().lines if len(line.get_xdata()) == 49]
-    assert len(ropes) == 1
-    ends = [record.pose[-1, :2, 0], record.prop_pose[-1, :2, 1]]
-    np.testing.assert_allclose(ropes[0][[0, -1]], ends, atol=1e-9)
 
 
 def test_forces_are_drawn_when_the_animation_says_so():

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from mars2d import Robot, Scenario, Unicycle, World
-from mars2d.addons import Map
 from mars2d.bodies.props import Box
 from mars2d.core.scene import Arrow, Circle, Line, Text
 from mars2d.output.layers.arrows import round_force
@@ -17,7 +16,6 @@ from mars2d.output.layers.forces import (
     forces,
     in_newtons,
 )
-from mars2d.output.layers.velocities import in_metres_a_second
 from mars2d.record.contact import CONTACT
 from mars2d.record.frame import Frame
 from tests.cases import each_case
@@ -114,16 +112,6 @@ def test_a_pushed_box_is_held_by_what_the_robot_can_push_with():
     assert len(of(Circle, forces(frame))) == 2  # its drive slips
 
 
-def test_where_nothing_acts_nothing_is_drawn():
-    wall = Map([[(0.3, -1), (0.3, 1)]])
-    for physics in ("stop", "ideal"):
-        scenario = Scenario(robots=[Robot()], addons=[wall], physics=physics)
-        world = World(scenario)
-        for _ in range(20):
-            world.step([[0.2], [0.0]])
-        assert not of(Arrow, forces(world.frame))
-
-
 @each_case(
     "force, text",
     [
@@ -139,11 +127,6 @@ def test_where_nothing_acts_nothing_is_drawn():
 )
 def test_forces_are_read_with_two_digits(force, text):
     assert in_newtons(force) == text
-
-
-@each_case("speed, text", [(0.25, "0.25 m/s"), (0.997, "1.0 m/s"), (9.97, "10 m/s")])
-def test_speeds_are_read_as_forces_are(speed, text):
-    assert in_metres_a_second(speed) == text
 
 
 @each_case("most, round_", [(1, 1), (1.99, 1), (2, 2), (9.9, 5), (10, 10), (0.3, 0.2), (730, 500)])

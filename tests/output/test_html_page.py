@@ -1,9 +1,7 @@
 """A replay in a browser, driven by real clicks, keys and fingers: what is seen."""
 
-import html
 import io
 import os
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,12 +12,9 @@ import mars2d
 from mars2d import Robot, Scenario
 from mars2d.addons import Communication, Map, Voronoi
 from mars2d.bodies.props import Box
-from mars2d.output.pages.replay import page
-from mars2d.record.interventions import Steer
 from mars2d.record.marks import marks_of
 from mars2d.sensors import Proximity, RangeFinder
 from tests.browser import Tab, differing
-from tests.colors import contrast
 
 REFERENCES = Path(__file__).parent / "references"
 EVIL = "<img src=x onerror=alert(1)>"
@@ -133,40 +128,6 @@ def test_it_plays_to_its_end_and_says_why_it_ended(tab, record):
     assert "Paused at " in tab.page.locator("#live").text_content()
 
 
-@pytest.mark.nightly
-def test_it_plays_at_the_speed_that_is_chosen(tab):
-    rate = """() => new Promise(done => {
-        const time = () => parseFloat(document.getElementById("time").textContent);
-        const begin = (start) => {
-            const before = time();
-            const look = (now) => {
-                if (now - start < 500) requestAnimationFrame(look);
-                else done((time() - before) / (now - start) * 1000);
-            };
-            requestAnimationFrame(look);
-        };
-        requestAnimationFrame(() => requestAnimationFrame(begin));
-    })"""
-    for speed in (2, 5):
-        tab.page.select_option("#speed", str(speed))
-        tab.press("Home", "Space")
-        assert tab.page.evaluate(rate) == pytest.approx(speed, rel=0.15)
-        tab.press("Space")
-    tab.press("+", "+", "-")  # to 10, 20, 10
-    assert tab.page.locator("#speed").input_value() == "10"
-
-
-def test_a_loop_begins_again(tab):
-    tab.press("j")
-    assert tab.is_on("#loop")
-    tab.page.select_option("#speed", "100")
-    tab.press("End", "ArrowLeft", "Space")
-    tab.until(lambda: tab.row() < 60)
-    assert tab.page.locator("body.playing").count() == 1
-    tab.click("Loop")
-    tab.page.wait_for_selector("#banner:visible")
-
-
 def test_the_slider_goes_where_it_is_dragged_and_by_its_keys(tab):
     box = tab.page.locator("#slider").bounding_box()
     middle = box["y"] + box["height"] / 2
@@ -219,30 +180,6 @@ def test_a_legend_says_how_long_a_force_is_and_follows_the_zoom(tab):
     assert "slips" not in tab.text("#legend")
     show_only(tab)
     assert not tab.text("#legend").strip()
-
-
-@pytest.mark.nightly
-def test_the_time_bar_has_marks_where_bodies_met_and_where_hands_were(record, open_tab, tmp_path):
-    marked = replace(record, interventions=tuple(Steer(k, 1, True) for k in (60, 80)))
-    tab = open_tab(marked.save_html(tmp_path / "marked.html"))
-    met = [row for row in marks_of(record)["collision"] if row > 5]
-    assert len(met) > 0
-    marks = tab.page.locator("#marks")
-    box = marks.bounding_box()
-    pixels, (wide, high) = marks.evaluate("""(canvas) => {
-        const { width, height } = canvas, context = canvas.getContext("2d");
-        return [Array.from(context.getImageData(0, 0, width, height).data), [width, height]];
-    }""")
-    inked = np.reshape(pixels, (high, wide, 4))[..., 3] > 0
-    above, below = np.array_split(inked, 2)
-    for rows, seen in (([60, 80], above), (met, below)):
-        places = [8 + (box["width"] - 16) * row / 120 for row in rows]
-        columns = np.flatnonzero(seen.any(axis=0))
-        assert all(np.abs(columns - place).min() <= 2 for place in places)
-        assert all(np.abs(np.array(places) - column).min() <= 2 for column in columns)
-    tab.press("F1")
-    assert "on the time bar: bodies came to touch" in tab.text("#helping")
-    assert "on the time bar: something was changed by hand" in tab.text("#helping")
 
 
 def test_n_goes_from_contact_to_contact_with_their_forces(record, tab):
@@ -381,31 +318,6 @@ def test_dark_is_switched_by_button_and_key(tab):
     assert differing(screen(), light) < 1e-3
 
 
-@pytest.mark.nightly
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_words_can_be_read(open_tab, replay, scheme):
-    tab = open_tab(replay, (1300, 640), color_scheme=scheme)
-    tab.page.select_option("#bodies", label="robot0")
-    tab.press("End")
-    pairs = tab.page.evaluate("""() => {
-        const solid = (e) => {
-            for (; e; e = e.parentElement) {
-                const color = getComputedStyle(e).backgroundColor;
-                if (!/, 0\\)|transparent/.test(color)) return color;
-            }
-        };
-        const words = "h1, #subtitle, button, select, #time, dt, dd, #banner, .kind";
-        const seen = [...document.querySelectorAll(words)];
-        return seen.map(e => [e.id || e.tagName, getComputedStyle(e).color, solid(e)]);
-    }""")
-    assert len(pairs) > 30
-    for name, ink, ground in pairs:
-        one, other = (
-            "#" + "".join(f"{int(v):02x}" for v in c[4:-1].split(",")) for c in (ink, ground)
-        )
-        assert contrast(one, other) >= 4.5, name
-
-
 # -- phones, frames -------------------------------------------------------------------------------
 
 
@@ -445,23 +357,6 @@ def test_two_fingers_zoom_about_their_middle(open_tab, replay):
     assert tab.page.locator("#panel").is_hidden()  # a pinch picks nothing
 
 
-def test_in_a_frame_of_a_notebook_it_waits_and_all_of_it_is_seen(browser, record, tmp_path):
-    text = f'<iframe srcdoc="{html.escape(page(record))}" width="800" height="480"></iframe>'
-    (tmp_path / "frame.html").write_text(text, encoding="utf-8")
-    tab = Tab(browser, (900, 600), reduced_motion="no-preference")
-    tab.page.goto((tmp_path / "frame.html").as_uri())
-    frame = tab.page.frame_locator("iframe")
-    frame.locator("#time", has_text="0.0 / 12.0 s").wait_for()
-    assert frame.get_by_role("button", name="Play").is_visible()
-    inside = frame.locator("#play").bounding_box()
-    around = tab.page.locator("iframe").bounding_box()
-    assert inside["y"] + inside["height"] <= around["y"] + 480
-    frame.get_by_role("button", name="One step on").click()
-    frame.locator("#time", has_text="0.1 / 12.0 s").wait_for()
-    tab.close()
-    assert tab.complaints == []
-
-
 @pytest.mark.parametrize(("motion", "plays"), [("reduce", 0), ("no-preference", 1)])
 def test_it_begins_to_play_unless_motion_is_unwanted(open_tab, replay, motion, plays):
     tab = open_tab(replay, reduced_motion=motion)
@@ -484,22 +379,6 @@ def test_a_screen_reader_finds_the_controls(tab):
     ):  # fmt: skip
         assert line in tree, line
     assert "3 robots and 1 prop, seen from above at 0.0 s" in tree
-
-
-@pytest.mark.nightly
-def test_tab_goes_from_control_to_control_and_shows_where_it_is(tab):
-    visited = []
-    for _ in range(14):
-        tab.page.keyboard.press("Tab")
-        visited.append(tab.page.evaluate("document.activeElement.id"))
-        outline = "getComputedStyle(document.activeElement).outlineStyle"
-        assert tab.page.evaluate(outline) != "none" or not visited[-1]
-    wanted = ["bodies", "show", "dark", "about", "help", "nearer", "farther", "fit", "slider"]
-    assert visited[: len(wanted)] == wanted
-    tab.page.locator("#ahead").focus()
-    tab.press("Space")  # presses the button, and does not play
-    assert tab.row() == 1
-    assert tab.page.locator("body.playing").count() == 0
 
 
 def test_help_lists_the_keys(tab):
@@ -526,23 +405,6 @@ def test_about_tells_where_the_run_comes_from(tab, record):
         assert each in said
     tab.click("Close")
     assert tab.page.locator("#telling").is_hidden()
-
-
-def test_a_run_that_was_broken_off_or_changed_by_hand_says_so(open_tab, record, tmp_path):
-    told = Steer(row=1, robot=0, driven=True)
-    stopped = replace(record, finished=False, over_message="Interrupted.", interventions=(told,))
-    tab = open_tab(stopped.save_html(tmp_path / "stopped.html"))
-    assert tab.text("#subtitle").split() == [
-        "seed",
-        "7",
-        "not",
-        "finished",
-        "changed",
-        "by",
-        "hand",
-    ]
-    tab.press("End")
-    assert tab.text("#banner") == "not finished: Interrupted."
 
 
 def test_a_damaged_file_or_an_old_browser_is_told_in_words(browser, replay, tmp_path):

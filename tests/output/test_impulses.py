@@ -8,7 +8,6 @@ from math import atan, atan2, hypot
 import numpy as np
 import pytest
 
-import mars2d
 from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.bodies.props import Ball, Box
@@ -17,7 +16,6 @@ from mars2d.output.layers.arrows import CUT_WIDTH, EDGE
 from mars2d.output.layers.forces import force_scale, forces
 from mars2d.output.layers.impulses import (
     FRICTION,
-    MAX_BLOWS,
     NORMAL,
     blows,
     impulse_scale,
@@ -127,33 +125,6 @@ def test_steady_pushing_is_a_force_and_no_blow():
         world.step([[0.2], [0.0]])
     assert forces(world.frame).shapes
     assert not impulses(world.frame).shapes
-
-
-def test_of_many_blows_the_strongest_are_drawn():
-    record = mars2d.run("crowd", stop_time=4)
-    counts = [len(blows(record.frame(row))) for row in range(0, len(record), 5)]
-    assert max(counts) == MAX_BLOWS
-    row = 5 * int(np.argmax(counts))
-    found = blows(record.frame(row))
-    log = record.frame(row).contact_log()
-    least = 0.05 * impulse_scale(record.scenario).most
-    last = log[(log["time"] > record.time[row] - 1.0) & log["began"] & (log["impulse"] >= least)]
-    newest = {(a, b): size for a, b, size in sorted_by_time(last)}
-    np.testing.assert_allclose(found["impulse"], sorted(newest.values())[-MAX_BLOWS:])
-
-
-def sorted_by_time(contacts):
-    """Return pairs and impulses in the order of time, the later ones last."""
-    rows = contacts[np.argsort(contacts["time"], kind="stable")]
-    return zip(rows["a"].tolist(), rows["b"].tolist(), rows["impulse"].tolist(), strict=True)
-
-
-def test_a_recorded_frame_shows_what_the_live_one_did():
-    world = meeting(offset=0.12, friction=0.4)
-    row, live = world.iteration, impulses(world.frame)
-    world.step(np.zeros((2, 1)))
-    kept = impulses(world.record.frame(row))
-    assert str(live.shapes) == str(kept.shapes)
 
 
 def test_one_rule_shortens_all_long_arrows_and_the_legend_says_from_where_on():

@@ -14,9 +14,7 @@ from mars2d.bodies.props import Ball, Box, Gate, Puck
 from mars2d.core.materials import MATERIALS
 from mars2d.core.scene import Circle, Line, Polygon, Scene
 from mars2d.geometry.shapes import Polygon as Outline
-from mars2d.output.layers.bodies import draw_robot, initial_poses, joints, place_prop
-from mars2d.output.layers.table import of_bodies
-from mars2d.output.layers.trails import trails
+from mars2d.output.layers.bodies import draw_robot, joints
 
 ARROWHEAD = [(-0.2, -0.2), (0.3, 0.0), (-0.2, 0.2), (-0.1, 0.0)]
 
@@ -64,17 +62,6 @@ def test_props_show_their_colour_their_material_or_a_neutral_one():
     assert set(MATERIAL_COLORS) == set(MATERIALS)
 
 
-def test_initial_poses_of_props_are_hollow_and_props_filled():
-    scenario = Scenario(robots=[Robot()], props=[Box(pose=(1, 1, 0.3)), Puck(pose=(2, 1, 0))])
-    frame = World(scenario).frame
-    box, puck = of(Polygon, initial_poses(frame))[0], of(Circle, initial_poses(frame))[0]
-    assert box.fill is None
-    assert puck.fill is None
-    filled = of(Polygon, of_bodies(place_prop)(frame))[0]
-    assert filled.fill
-    np.testing.assert_allclose(filled.points, box.points)
-
-
 def tied(joint, x=1.0, **changes):
     scenario = Scenario(robots=[Robot()], props=[Puck(pose=(x, 0, 0))], joints=[joint], **changes)
     return joints(World(scenario).frame)
@@ -104,17 +91,3 @@ def test_rods_reach_their_anchors_and_hinges_are_pins():
     (pin,) = joints(World(scenario).frame).shapes
     np.testing.assert_allclose(pin.center, (2, -0.5))
     assert pin.radius == 0.0
-
-
-def test_a_prop_that_moved_leaves_a_thin_trail():
-    from dataclasses import replace
-
-    scenario = Scenario(robots=[Robot()], props=[Puck(pose=(1, 0, 0)), Box(pose=(2, 1, 0))])
-    frame = World(scenario).frame
-    path = np.repeat(frame.prop_pose[None], 5, axis=0)
-    path[:, 0, 0] += np.linspace(-0.5, -0.1, 5)
-    of_robots = len(trails(frame).shapes)
-    scene = trails(replace(frame, prop_path=path))
-    assert len(scene.shapes) == of_robots + 1
-    np.testing.assert_allclose(scene.shapes[0].points[[0, -1]], [(0.5, 0), (1, 0)])
-    assert scene.shapes[0].width < scene.shapes[-1].width

@@ -136,21 +136,6 @@ def test_a_replay_too_large_for_a_notebook_is_a_picture_and_a_word_about_it(monk
     assert 'record.save_html("replay.html")' in found
 
 
-def test_a_loaded_record_shows_itself_without_the_users_own_parts(tmp_path):
-    class Mine(Sensor):
-        def read(self, robot, around, rng):
-            return 1.0
-
-        def draw(self, scene, pose, reading, color):
-            scene.circle(pose, reading, fill=color)
-
-    record = mars2d.run(room(robots=[Robot(pose=(0, -3, 0), sensors=[Mine()])]))
-    again = mars2d.load(record.save(tmp_path / "run.npz"))
-    assert again.missing
-    assert "A room" in words(again._repr_svg_())[-1]
-    assert "<iframe" in again._repr_html_()
-
-
 class Failing(Addon):
     def draw(self, scene, frame):
         raise ValueError("no ink </text>")

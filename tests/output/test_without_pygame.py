@@ -52,12 +52,6 @@ def run_in_browser(code: str, folder: Path) -> subprocess.CompletedProcess[str]:
     )
 
 
-@pytest.fixture
-def browser(tmp_path):
-    """Run code as a browser would, in a folder of its own; return what it prints."""
-    return lambda code: run_in_browser(code, tmp_path)
-
-
 COMMANDS = """
 import contextlib, io, json
 from mars2d.cli.command_line import main
@@ -76,29 +70,6 @@ def commands(words: list[list[str]], folder: Path) -> list[tuple[int, str]]:
     done = run_in_browser(COMMANDS.format(words=words), folder)
     assert done.returncode == 0, done.stderr
     return [tuple(each) for each in json.loads(done.stdout)]
-
-
-@pytest.mark.nightly
-def test_a_record_is_saved_loaded_drawn_and_played(browser, tmp_path):
-    code = (
-        "import mars2d\n"
-        "record = mars2d.run('random_walk', stop_time=5)\n"
-        "again = mars2d.load(record.save('run.npz'))\n"
-        "assert again.digest == record.digest\n"
-        "record.plot().figure.savefig('paths.png')\n"
-        "record.plot_snapshots([0, 2]).savefig('snapshots.png')\n"
-        "record.plot_signals('x')[0].figure.savefig('signals.png')\n"
-        "record.plot_contacts()[0].figure.savefig('contacts.png')\n"
-        "record.plot_distances().figure.savefig('distances.png')\n"
-        "record.save_html('run.html')\n"
-        "assert '<iframe' in record._repr_html_()\n"
-        "assert 'pygame' not in sys.modules\n"
-    )
-    done = browser(code)
-    assert done.returncode == 0, done.stderr
-    figures = ("paths", "snapshots", "signals", "contacts", "distances")
-    wanted = {"run.npz", "run.html", *(f"{name}.png" for name in figures)}
-    assert {path.name for path in tmp_path.iterdir()} == wanted
 
 
 def test_the_command_line_runs_saves_draws_and_checks(tmp_path):

@@ -329,9 +329,13 @@ def watched(world: World) -> Iterator[Watcher]:
         yield watcher
 
 
-def rough(seed: int, mix: str, mass_ratio: float, sampling_time: float, ticks: int, *, ties=False):
+def rough(
+    seed: int, mix: str, mass_ratio: float, sampling_time: float, ticks: int, *, ties=False,
+    max_overlap: float = ALLOWED,
+) -> Watch:  # fmt: skip
     """Let a crowd push at random; return what was seen."""
     scenario = crowd(seed, mix, mass_ratio, sampling_time, ties=ties)
+    scenario = scenario.replace(max_overlap=max_overlap)
     with plainly():
         world = World(scenario)
     rng = np.random.default_rng(seed + 1)
@@ -366,6 +370,12 @@ def test_in_a_crowd_of_many_shapes_nothing_overlaps_by_a_millimetre(
     mix, mass_ratio, sampling_time, ticks
 ):
     check(rough(1, mix, mass_ratio, sampling_time, ticks, ties=mass_ratio == 1))
+
+
+@each_case("max_overlap", [1e-4, 2e-2])
+def test_the_overlap_stays_under_what_is_allowed(max_overlap):
+    watch = rough(1, "discs", 1.0, 0.1, 10, max_overlap=max_overlap)
+    assert 0 < watch.deepest <= max_overlap
 
 
 @pytest.mark.nightly

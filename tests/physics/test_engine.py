@@ -8,17 +8,16 @@ from itertools import product
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 import mars2d
 from mars2d import Holonomic, InputError, Robot, Scenario, Unicycle, World
 from mars2d.addons import Map
 from mars2d.physics.islands.body import Body
-from mars2d.physics.islands.island import Island
 from mars2d.physics.islands.mover import Mover
 from tests.cases import each_case
-from tests.islands import looked_at, plainly, states_of
+from tests.islands import looked_at
 
 EXACT = 1e-9  # metres
 
@@ -235,15 +234,6 @@ def test_more_overlap_allowed_means_fewer_substeps():
 # -- contact --------------------------------------------------------------------------------
 
 
-def test_the_stronger_of_two_robots_pushes_the_weaker_one_back():
-    weak = Robot(pose=(-0.2, 0, 0), drive=Unicycle(max_force=2))
-    strong = Robot(pose=(0.2, 0, np.pi), drive=Unicycle(max_force=6))
-    world = World(free(weak, strong))
-    drive(world, [[0.3, 0.3], [0, 0]], 5)
-    assert world.pose[0, 0] < -0.5
-    assert np.isfinite(world.pose).all()
-
-
 def test_a_braked_robot_holds_its_place_against_a_weaker_one():
     pusher = Robot(pose=(-0.2, 0, 0), drive=Unicycle(max_force=4.7))
     braked = Robot(pose=(0.2, 0, np.pi), drive=Unicycle(max_force=5.3))
@@ -281,27 +271,6 @@ def test_without_restitution_nothing_bounces(speed, distance):
         slowest = min(slowest, world.velocity[0, 0])
     assert abs(slowest) < 1e-3 * speed
     assert world.pose[0, 0] == pytest.approx(distance, abs=1e-3)
-
-
-def test_robots_in_a_row_pass_an_impact_on_without_bouncing():
-    weak = Holonomic(max_linear_speed=2, max_force=1e-6, max_torque=1e-6)
-    row = [Robot(pose=(x, 0, 0), drive=weak) for x in (0, 0.7, 1.003, 1.306)]
-    world = World(free(*row))
-    momentum = 0.0
-    for _ in range(20):
-        world.step([[1.5, 0, 0, 0], [0, 0, 0, 0]])
-        assert world.velocity[0].min() > -1e-3
-        momentum = float(world.velocity[0].sum())
-    assert momentum == pytest.approx(1.5, rel=1e-3)
-    assert world.velocity[0] == pytest.approx([1.5 / 4] * 4, rel=0.05)
-
-
-def test_a_robot_bounces_off_a_wall_at_the_product_of_both_restitutions():
-    weak = Unicycle(max_force=1e-6, max_torque=1e-6)
-    robot = Robot(drive=weak, restitution=0.8)
-    world = World(free(robot, addons=[Map([[(0.3, -1), (0.3, 1)]], restitution=0.5)]))
-    drive(world, [[0.4], [0]], 1)
-    assert world.velocity[0, 0] == pytest.approx(-0.4 * 0.8 * 0.5, rel=1e-3)
 
 
 @each_case(("force", "mass"), [(0.05, 1.0), (0.1, 0.5), (0.2, 3.0)])
@@ -387,137 +356,6 @@ def test_inside_a_concave_workspace_with_walls_a_robot_stays_inside():
     assert -1e-3 < y - 0.15 < 1.7
 
 
-# -- crowds ---------------------------------------------------------------------------------
-
-BOX = 1.5
-DIAMETER = 0.3
-
-
-def scattered(rng: np.random.Generator, count: int, box: float) -> np.ndarray:
-    """Places (count, 2) in the box at which discs do not overlap."""
-    inner = box / 2 - DIAMETER / 2 - 1e-3
-    while True:
-        places: list[np.ndarray] = []
-        for _ in range(4000):
-            place = rng.uniform(-inner, inner, 2)
-            if all(np.hypot(*(place - other)) > DIAMETER for other in places):
-                places.append(place)
-                if len(places) == count:
-                    return np.array(places)
-
-
-def deepest(
-    seed: int, *, speed: float, sampling_time: float, mass_ratio: float = 1, restitution: float = 0,
-    ticks: int = 20, count: int = 10, box: float = BOX, max_overlap: float = 1e-3,
-    offset: float = 0.0,
-) -> float:  # fmt: skip
-    """Let a crowd push at random; return the deepest overlap after any substep, metres.
-
-    Islands are at different times in the middle of a control step: each is looked at by itself, and
-    all together at its end.
-    """
-    rng = np.random.default_rng(seed)
-    robots = [
-        Robot(
-            pose=(x, y, rng.uniform(-3, 3)),
-            drive=(Unicycle, Holonomic)[i % 2](max_linear_speed=speed),
-            mass=mass_ratio ** (i % 3 / 2),
-            restitution=restitution,
-            center_offset=offset * rng.uniform(-1, 1),
-        )
-        for i, (x, y) in enumerate(scattered(rng, count, box))
-    ]
-    robots = [r.at(*_rotation_center(r)) for r in robots]
-    h = box / 2
-    scenario = free(
-        *robots, workspace=[(-h, -h), (h, -h), (h, h), (-h, h)], on_exit="wall",
-        sampling_time=sampling_time, max_overlap=max_overlap,
-    )  # fmt: skip
-    with plainly():
-        world = World(scenario)
-    offsets = np.array([r.center_offset for r in robots])
-    worst = 0.0
-
-    def look(state: np.ndarray, who: list[int]) -> None:
-        nonlocal worst
-        assert np.isfinite(state).all()
-        center = state[:, :2] - offsets[who, None] * np.column_stack(
-            [np.cos(state[:, 2]), np.sin(state[:, 2])]
-        )
-        i, j = np.triu_indices(len(who), 1)
-        apart = np.hypot(*(center[i] - center[j]).T)
-        into_wall = np.abs(center).max() + DIAMETER / 2 - h
-        worst = max(worst, DIAMETER - apart.min(initial=np.inf), into_wall)
-
-    def look_at(island: Island, _: float) -> None:
-        look(states_of(island.bodies), [body.number for body in island.bodies])
-
-    with looked_at(look_at):
-        for _ in range(ticks):
-            command = rng.uniform(-speed, speed, (2, count))
-            command[1, ::2] *= 5
-            world.step(command)
-            look(world.pose.T, list(range(count)))
-    return worst
-
-
-def _rotation_center(robot: Robot) -> tuple[float, float, float]:
-    """The pose of a robot whose geometric centre is where its pose was meant to be."""
-    x, y, theta = robot.pose
-    return x + robot.center_offset * np.cos(theta), y + robot.center_offset * np.sin(theta), theta
-
-
-@pytest.mark.slow
-@each_case(
-    ("speed", "sampling_time", "mass_ratio", "restitution", "ticks"),
-    [(0.3, 0.5, 1, 0.5, 8), (2.0, 0.05, 10, 1, 30), (0.3, 0.05, 10, 0, 30), (2.0, 0.5, 1, 0, 8)],
-)
-def test_in_a_crowd_nothing_overlaps_by_more_than_a_millimetre(
-    speed, sampling_time, mass_ratio, restitution, ticks
-):
-    depth = deepest(
-        0, speed=speed, sampling_time=sampling_time, mass_ratio=mass_ratio,
-        restitution=restitution, ticks=ticks,
-    )  # fmt: skip
-    assert depth <= 1e-3
-
-
-def test_in_a_crowd_of_robots_that_turn_about_another_point_the_overlap_is_as_small():
-    depth = deepest(3, speed=0.5, sampling_time=0.5, offset=0.15, ticks=8)
-    assert depth <= 1e-3
-
-
-@each_case("max_overlap", [1e-4, 2e-2])
-def test_the_overlap_stays_under_what_is_allowed(max_overlap):
-    depth = deepest(1, speed=0.5, sampling_time=0.1, ticks=30, max_overlap=max_overlap)
-    assert depth <= max_overlap
-
-
-def test_in_a_larger_crowd_with_listed_pairs_the_overlap_is_as_small():
-    depth = deepest(0, speed=0.8, sampling_time=0.2, count=50, box=3.2, ticks=6)
-    assert depth <= 1e-3
-
-
-@pytest.mark.nightly
-@pytest.mark.parametrize("seed", range(10))
-def test_in_many_crowds_nothing_overlaps_by_more_than_a_millimetre(seed):
-    for speed, sampling_time, mass_ratio, restitution, offset in product(
-        [0.3, 0.8, 2.0], [0.05, 0.5], [1, 3, 10], [0, 0.5, 1], [0, 0.15]
-    ):
-        depth = deepest(
-            seed, speed=speed, sampling_time=sampling_time, mass_ratio=mass_ratio,
-            restitution=restitution, offset=offset, ticks=40,
-        )  # fmt: skip
-        assert depth <= 1e-3, (speed, sampling_time, mass_ratio, restitution, offset)
-
-
-@given(seed=st.integers(0, 2**32))
-@settings(max_examples=15)
-def test_two_robots_pushed_at_random_stay_finite_and_apart(seed):
-    depth = deepest(seed, speed=1.0, sampling_time=0.3, count=2, box=0.8, ticks=4, offset=0.1)
-    assert depth <= 1e-3
-
-
 # -- worlds ---------------------------------------------------------------------------------
 
 
@@ -533,24 +371,6 @@ def test_a_thousand_robots_in_one_place_are_refused_at_once():
         Scenario(robots=[Robot()] * 1000)
 
 
-def test_a_light_robot_thrown_by_a_heavy_one_does_not_pass_the_wall():
-    """It is hit with 2 m M (V - v) / (m + M), and the wall throws it back."""
-    heavy = Robot(pose=(-2.3, 0, 0), mass=10, restitution=1, drive=Holonomic())
-    light = Robot(pose=(0, 0, 0), restitution=1, drive=Holonomic(max_force=0.1))
-    scenario = Scenario(
-        robots=[heavy, light],
-        workspace=[(-6, -6), (-6, 6), (2.3, 6), (2.3, -6)],
-        on_exit="wall",
-        sampling_time=2.0,
-        stop_time=8.0,
-    )
-    record = mars2d.run(scenario, control=lambda world: [[0.5, -0.5], [0, 0]])
-    assert record.pose[:, 0, 1].max() < 2.3 - 0.15 + 1e-3
-    hits = record.contacts
-    assert (1, -1) in hits[["a", "b"]].tolist()
-    assert hits["normal_impulse"][0] == pytest.approx(2 * 10 / 11, rel=0.01)
-
-
 @each_case("gap", [0.05, 0.3, 0.8])
 def test_a_robot_pinched_out_between_two_stops_at_the_wall(gap):
     strong = Holonomic(max_force=50)
@@ -560,22 +380,6 @@ def test_a_robot_pinched_out_between_two_stops_at_the_wall(gap):
     scenario = Scenario(robots=[*jaws, pip], addons=[wall], sampling_time=1.0, stop_time=4.0)
     record = mars2d.run(scenario, control=lambda world: [[0.5, -0.5, 0], [0, 0, 0]])
     assert record.pose[:, 1, 2].max() < 0.18 + gap - 0.15 + 1e-3
-
-
-@each_case("restitution", [0.25, 0.9])
-@each_case("start", [-1.0, -1.01, -0.93])
-@each_case("offset", [0.1, -0.2])
-def test_robots_that_meet_obliquely_part_at_their_restitution(restitution, start, offset):
-    weak = Holonomic(max_force=1e-6)
-    moving = Robot(pose=(start, offset, 0), drive=weak, restitution=restitution, friction=0)
-    resting = Robot(drive=weak, restitution=1, friction=0)
-    world = World(free(moving, resting, sampling_time=0.01))
-    while world.time < 4:
-        world.step([[0.4, 0], [0, 0]])
-    normal = world.record.contacts[0]["normal"]
-    parting = (world.velocity[:2, 1] - world.velocity[:2, 0]) @ normal
-    assert parting / (0.4 * normal[0]) == pytest.approx(restitution, abs=1e-3)
-    assert len(world.record.contacts) == 1
 
 
 @pytest.mark.usefixtures("plain")

@@ -287,18 +287,6 @@ def test_a_draft_of_an_example_is_that_scenario_again_and_can_be_emptied(name):
     assert "no robot" in editor.judge.verdict.text
 
 
-def test_the_ground_is_drawn_once_while_a_robot_is_moved_over_it():
-    editor, surface = Editor(furnished(), Looks()), pygame.Surface((640, 400), 0, 32)
-    editor.draw(surface)
-    desk, canvas = editor.desk, editor._stage._canvas
-    desk.put(desk.draft.moved([Item("robot", 0)], Motion(by=(1.0, 0.0))))
-    editor.draw(surface)
-    assert editor._stage._canvas is canvas
-    desk.put(desk.draft.moved([Item("outline", 0)], Motion(by=(1.0, 0.0))))
-    editor.draw(surface)
-    assert editor._stage._canvas is not canvas
-
-
 def test_the_keys_in_the_document_and_the_help_are_those_that_work():
     text = (Path(__file__).parents[2] / "docs" / "editor.md").read_text(encoding="utf-8")
     told = [line.strip("| ").split(" | ") for line in text.splitlines() if line.startswith("| ")]

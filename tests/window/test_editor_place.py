@@ -1,5 +1,6 @@
 """The editor and the run look at the same place, and the run says what stands still."""
 
+import pygame
 import pytest
 
 from mars2d.scenario.changes import carried
@@ -30,6 +31,14 @@ def test_the_editor_opens_where_the_window_looked_and_the_window_where_the_edito
     seen = middle(window.editor.viewpoint)
     window._close_editor(window.editor)
     assert middle(window.viewpoint) == pytest.approx(seen)
+
+
+def test_a_drawing_that_takes_long_is_not_waited_for_by_another_one():
+    window = window_of(Scenario(robots=[Robot()]))
+    pygame.display.init()
+    pygame.display.set_mode((640, 480))
+    with window._screen:  # as while an add-on of the user draws
+        assert window._answer("addon.py, line 3") == ""
 
 
 @each_case(

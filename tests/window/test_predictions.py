@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from mars2d.core.deadline import Deadline
 from mars2d.output.raster.layout import TEXT_SIZES, Layout
+from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.theme import LIGHT
 from mars2d.scenario.experiment import open_experiment
 from mars2d.window.panels.predictions import Predictions
@@ -160,3 +161,9 @@ def test_words_and_numbers_never_lie_on_each_other(tmp_path, theme, text):
     desk.look()
     assert desk.drawn().crowded() == []
     assert "-" in desk.says
+
+
+def test_without_a_measurement_the_panel_says_so_at_its_top():
+    panel = Predictions(Painter(), None)
+    assert len(panel.rows(None, 300.0)) == 1
+    assert panel.foot(300.0) == ()

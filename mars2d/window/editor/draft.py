@@ -213,8 +213,6 @@ class Draft:
     def with_base(self, **changes: Any) -> Self:
         """Return the draft with other fields of the scenario, which are not checked."""
         base = copy.copy(self.base)
-        if changes.keys().isdisjoint(("addons", "workspace", "on_exit")):
-            base.__dict__["surfaces"] = self.base.surfaces  # the ground is drawn but once
         base.__dict__.update(changes)
         return type(self)(base)
 

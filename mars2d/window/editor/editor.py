@@ -25,15 +25,20 @@ from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.dialogs import Dialogs
 from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft
-from mars2d.window.editor.handles import NOTCH, ring_of
+from mars2d.window.editor.handles import (
+    NOTCH,
+    draw_culprits,
+    draw_remarks,
+    draw_selected,
+    ring_of,
+)
 from mars2d.window.editor.header import Header
 from mars2d.window.editor.item import Item, Motion
+from mars2d.window.editor.placing import Tie
 from mars2d.window.editor.properties import Properties
 from mars2d.window.editor.readout import minus
 from mars2d.window.editor.select import Handling, Select
-from mars2d.window.editor.sketch import draw_culprits, draw_remarks, draw_selected
 from mars2d.window.editor.tool import Tool
-from mars2d.window.editor.tying import Tie
 from mars2d.window.editor.verdict import Judge
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.viewpoint import Viewpoint, wheel_notches

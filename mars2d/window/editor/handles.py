@@ -1,7 +1,8 @@
-"""The handles of the selection (corners, dots between them, a ring), and their drags."""
+"""What is drawn over a draft (marks, remarks, handles of the selection), and drags of handles."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from math import copysign, cos, degrees, hypot, pi, radians, sin
@@ -12,7 +13,7 @@ import numpy as np
 from mars2d.bodies.props.base import Prop
 from mars2d.bodies.props.rectangles import Box
 from mars2d.core.plane import Outline, Point, edges_of
-from mars2d.core.scene import Scene
+from mars2d.core.scene import Scene, faded
 from mars2d.output.raster.theme import LIGHT
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.draft import Draft
@@ -24,6 +25,9 @@ REACH = 9.0
 """The radius in which a handle is hit, points."""
 
 MARK, PAPER = LIGHT.selected, LIGHT.paper
+
+IDLE, IDLE_SIZE = LIGHT.waiting.ink, 12.0
+RED = LIGHT.error.ink
 
 MIN_RING, MAX_RING = 30.0, 150.0
 """The radius of the ring on the screen, points."""
@@ -140,6 +144,52 @@ def draw_handles(desk: Desk, scene: Scene) -> None:
             x, y = handle.point
             square = [(x + a * half, y + b * half) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
             scene.polygon(square, fill=fill, stroke=color, width=2.0)
+
+
+def draw_selected(draft: Draft, items: Iterable[Item], scene: Scene) -> None:
+    """Draw the outlines of selected items."""
+    for item in items:
+        _outline(draft, item, scene, PAPER, 4.5)
+        _outline(draft, item, scene, MARK, 2.2)
+
+
+def draw_culprits(draft: Draft, items: Iterable[Item], scene: Scene) -> None:
+    """Draw faulty items in red."""
+    for item in items:
+        if draft.holds(item):
+            _outline(draft, item, scene, RED, 3.0, faded(RED, 0.3))
+
+
+def draw_remarks(draft: Draft, idle: Mapping[int, str], scene: Scene) -> None:
+    """Write below each robot what it lacks to be moved, and whether it starts at random."""
+    for i, robot in enumerate(draft.robots):
+        words = ["at random"] if draft.starts_at_random(Item("robot", i)) else []
+        if i in idle:
+            words.append("no law" if idle[i] == "a law" else f"lacks {idle[i]}")
+        (x, y), radius = robot.rigid.bound
+        text, below = ", ".join(words), (x, y - radius)
+        if text:
+            scene.text(below, text, color=IDLE, size=IDLE_SIZE, anchor="below", halo=PAPER)
+
+
+def _outline(
+    draft: Draft, item: Item, scene: Scene, stroke: str, width: float, fill: str | None = None
+) -> None:
+    corners, body = draft.corners(item), draft.body(item)
+    if body is not None:
+        for rim in body.shape.rims:
+            points = [body.to_world(point) for point in rim.points]
+            if rim.radius:
+                scene.circle(points[0], rim.radius, stroke=stroke, fill=fill, width=width)
+            else:
+                scene.polygon(points, stroke=stroke, fill=fill, width=width)
+    elif corners is None:
+        scene.circle(draft.place(item), 0.0, stroke=stroke, width=width, pixels=9.0)
+    elif item.kind == "wall" or len(corners) == 2:
+        scene.line(corners, stroke=stroke, width=width)
+    else:
+        inside = None if item.kind == "workspace" else fill
+        scene.polygon(corners, stroke=stroke, fill=inside, width=width)
 
 
 # -- drags ------------------------------------------------------------------------------------

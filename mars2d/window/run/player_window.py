@@ -178,10 +178,14 @@ class PlayerWindow(ABC):
             how = "Ctrl Q ends the program, and saves" if blocked else "Esc breaks it off"
             self.notes.say(f"waiting for {where}; {how}", kind="warning")
         surface = pygame.display.get_surface()
-        if surface is not None and not (blocked and sys.platform == "darwin"):
-            with self._screen:  # a call in C may end while another thread draws
+        draws = not (blocked and sys.platform == "darwin")
+        # A drawing that takes long is not waited for: it may be this thread's own.
+        if surface is not None and draws and self._screen.acquire(blocking=False):
+            try:  # a call in C may end while another thread draws
                 self.draw(surface)
                 pygame.display.flip()
+            finally:
+                self._screen.release()
         pygame.event.pump()
         closed = pygame.event.peek(pygame.QUIT)
         moved = pygame.event.get((pygame.KEYDOWN, pygame.KEYUP))

@@ -113,13 +113,12 @@ class SpeedSlider(Slider):
         """Return the speed of the rung nearest to a pixel from the left, inf for "max"."""
         return self.rungs[round(self.value_at(x))]
 
-    def x_of_speed(self, speed: float) -> float:
-        """Return where a speed lies, pixels from the left; between rungs by its logarithm."""
+    def value_of(self, speed: float) -> float:
+        """Return the number of a speed's rung; between rungs by its logarithm."""
         if speed in self.rungs:
-            return self.x_of(self.rungs.index(speed))
+            return self.rungs.index(speed)
         finite = self.rungs[:-1]
-        place = np.interp(log(max(speed, finite[0])), np.log(finite), range(len(finite)))
-        return self.x_of(float(place))
+        return float(np.interp(log(max(speed, finite[0])), np.log(finite), range(len(finite))))
 
     def draw(
         self,
@@ -147,13 +146,12 @@ class SpeedSlider(Slider):
         if inner.width <= 0:
             return
         hovered = held or (pointer is not None and self.hit(pointer))
-        place = self.rungs.index(1.0), self.x_of_speed(speed)
-        value = self.value_at(place[1])
-        self.draw_value(surface, inner, painter, value, place[0], held=hovered)
+        real_time = self.rungs.index(1.0)
+        self.draw_value(surface, inner, painter, self.value_of(speed), real_time, held=hovered)
         self._words(surface, rect, painter, speed, reached)
         if hovered and pointer is not None:
             wanted = self.speed_at(pointer[0])
-            at = round(self.x_of_speed(wanted)), rect.top - round(4 * ui)
+            at = round(self.x_of(self.value_of(wanted))), rect.top - round(4 * ui)
             draw_tooltip(surface, painter, times(wanted), midbottom=at)
         elif costs and pointer is not None and rect.collidepoint(pointer):
             at = rect.right, rect.top - round(4 * ui)

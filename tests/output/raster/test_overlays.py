@@ -13,20 +13,16 @@ from mars2d import Robot, Scenario, Unicycle
 from mars2d.core.scene import Arrow
 from mars2d.output.layers.legend import legends
 from mars2d.output.layers.neighbours import neighbours
-from mars2d.output.layers.table import Layers
 from mars2d.output.layers.velocities import speed_scale, velocities
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.legend import draw_legends
 from mars2d.output.raster.painter import Painter
-from mars2d.output.raster.stage import Stage
-from mars2d.output.raster.theme import DARK, LIGHT
 from mars2d.record.frame import Frame
 from mars2d.scenario.neighbours import Graph, Within
 from tests.cases import each_case
 
 SIZE = (640, 480)
 CAMERA = Camera(80.0, 320.0, 240.0)
-QUIET = Layers(grid=False, trails=False)
 
 
 def frame_of(poses, velocity=(0.0, 0.0, 0.0), **changes):
@@ -37,12 +33,6 @@ def frame_of(poses, velocity=(0.0, 0.0, 0.0), **changes):
     pose = before + dt * np.array(velocity)[:, None]
     props = np.array([prop.pose for prop in scenario.props]).reshape(-1, 3).T
     return Frame(scenario, dt, 1, pose, before[None], prop_pose=props, prop_path=props[None])
-
-
-def picture(frame, layers, theme=LIGHT):
-    surface = pygame.Surface(SIZE, 0, 32)
-    Stage(Painter(theme=theme)).draw(surface, frame, CAMERA, layers)
-    return pygame.surfarray.array3d(surface).swapaxes(0, 1).astype(int)
 
 
 # -- velocities -----------------------------------------------------------------------------------
@@ -98,18 +88,6 @@ def test_the_legends_lie_side_by_side(scale):
 # -- names ----------------------------------------------------------------------------------------
 
 
-def test_a_name_hides_no_body_and_can_be_read():
-    frame = frame_of([(0, 0, 0)])
-    for theme in (LIGHT, DARK):
-        without, seen = (picture(frame, replace(QUIET, names=on), theme) for on in (False, True))
-        changed = (without != seen).any(axis=2)
-        rows = np.flatnonzero(changed.any(axis=1))
-        assert 10 < len(rows) < 30
-        assert rows.max() < 240 - 80 * 0.15, "above the robot's rim"
-        page = sum(int(theme.page[k : k + 2], 16) for k in (1, 3, 5))
-        assert np.abs(seen[changed].sum(axis=1) - page).max() > 300
-
-
 # -- neighbours -----------------------------------------------------------------------------------
 
 
@@ -130,12 +108,3 @@ def test_neighbours_are_linked():
 
 
 # -- layers ---------------------------------------------------------------------------------------
-
-
-@each_case("layer", ["names", "velocities", "neighbours"])
-def test_each_layer_is_seen_when_it_is_on(layer):
-    places = [(-1, 0, 0), (0, 0, 0)]
-    frame = frame_of(places, (0.2, 0.1, 0.5), neighbours=Within(2))
-    off, on = (picture(frame, replace(QUIET, **{layer: value})) for value in (False, True))
-    assert (off != on).any()
-    assert not getattr(Layers(), layer), "pictures are as they were"
