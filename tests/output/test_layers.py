@@ -190,7 +190,7 @@ def check_order(picture):
     with_marks = [name for name in NAMES if name not in ("grid", "trails")]
     for name in with_marks:
         x, _ = place(name)
-        assert shows(x - 0.1, 0.13, name), f"{name} is not on those below"
+        assert shows(x - 0.1, -0.13, name), f"{name} is not on those below"
     above_grid, above_trails = NAMES.index("grid"), NAMES.index("trails")
     for k, name in enumerate(NAMES):
         if name not in with_marks:
@@ -199,7 +199,7 @@ def check_order(picture):
         crossed = not shows(x - 0.1, 0.0, name, reach=3)
         assert crossed is (k < above_trails), f"the path and {name}"
         if x % 2 == 0:  # where each painter's grid has a line
-            lined = not shows(x, 0.13, name, reach=2)
+            lined = not shows(x, -0.13, name, reach=2)
             assert lined is (k < above_grid), f"the grid and {name}"
 
 

@@ -160,9 +160,9 @@ def test_what_stays_between_two_pictures_is_not_drawn_again(record, monkeypatch)
 def test_what_is_kept_has_a_bound(record):
     viewer = Viewer(record)
     painter = viewer.window._painter
-    painter._sprites = Sprites(20_000)
+    painter._sprites = Sprites(1_000)
     most = 0
     for _ in range(30):
         viewer.play(2, draw=True)
         most = max(most, painter._sprites.kept)
-    assert 10_000 < most <= 20_000
+    assert 500 < most <= 1_000

@@ -7,10 +7,10 @@ def test_a_menu_opens_on_what_is_selected_or_on_the_floor(open_window, room):
     assert "Show all" in window.settle()["menu"]
     window.press("Escape", "Tab", "Tab", "Tab", "F10")
     menu = window.shown.toolbar.menu
-    window.type("pu")  # by its first letters
-    assert menu.chosen == "Push with a force ..."
+    window.type("f")  # by its first letter
+    assert menu.chosen == "Follow with the camera"
     window.press("Return")
-    assert not menu.is_open
+    window.until(lambda s: s["following"])
 
 
 def test_sliders_are_reached_and_set_by_keys(open_window, pushing):

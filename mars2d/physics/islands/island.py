@@ -9,7 +9,7 @@ bounded force and torque until it follows again, and for a few short substeps mo
 from __future__ import annotations
 
 from math import ceil, sqrt
-from typing import Any
+from typing import TYPE_CHECKING
 
 from mars2d.physics.islands import chipmunk, settings
 from mars2d.physics.islands import shadow as cython
@@ -23,6 +23,9 @@ from mars2d.physics.islands.pair import Pair
 from mars2d.physics.islands.solver import Solver
 from mars2d.physics.islands.thrust import Thrust, predict
 from mars2d.physics.islands.tie import Tie
+
+if TYPE_CHECKING:
+    from mars2d.physics.islands.mover import Mover
 
 STUCK = 16
 """After how many substeps in a row with bodies too deep in each other they are corrected faster."""
@@ -110,22 +113,13 @@ class Island:
     any_touch: cython.bint
     impact: Impact
 
-    def __init__(
-        self,
-        accuracy: Accuracy,
-        glide: Glide,
-        numbers: list[Body],
-        solvers: list[Solver],
-        spare: list[Solver],
-        surfaces: Any,
-    ) -> None:
-        """Set the objects that all islands share: bodies by number, all and the unused solvers."""
-        self.accuracy, self.glide, self.numbers = accuracy, glide, numbers
-        self.solvers, self.spare, self.surfaces = solvers, spare, surfaces
-        self.thrust = Thrust()
+    def __init__(self, mover: Mover) -> None:
+        """Share the bodies, the solvers and all else with the mover."""
+        self.accuracy, self.glide, self.thrust = mover.accuracy, mover.glide, mover.thrust
+        self.solvers, self.spare, self.surfaces = mover.solvers, mover.spare, mover.surfaces
+        self.numbers, self.impact = mover.bodies, Impact(mover.bodies[0])
         self.bodies, self.pairs, self.ties = [], [], []
         self.contact_step = 1e300
-        self.impact = Impact(numbers[0])
 
     def clear(self) -> cython.void:
         """Make it one without bodies."""

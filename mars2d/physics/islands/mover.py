@@ -156,8 +156,7 @@ class Mover:
         more: cython.bint = True
         while more:
             self.set_ways(duration)
-            if self.neighbours.refresh():
-                self.neighbours.measure()
+            self.neighbours.refresh()
             more = self.join()
 
     def set_ways(self, duration: cython.double) -> cython.void:
@@ -270,11 +269,7 @@ class Mover:
     def next_island(self) -> Island:
         """Return an island without bodies."""
         if self.found == len(self.islands):
-            self.islands.append(
-                Island(
-                    self.accuracy, self.glide, self.bodies, self.solvers, self.spare, self.surfaces
-                )
-            )
+            self.islands.append(Island(self))
         island = self.islands[self.found]
         island.clear()
         self.found += 1

@@ -69,15 +69,13 @@ class Neighbours:
             for q in b.pieces:
                 self.pairs.append(PiecePair(a, b, None, p, q))
 
-    def refresh(self) -> cython.bint:
-        """List pairs again if a body may move farther than the skin; return whether that was so."""
-        if self.skin >= 1e300:
-            return False
+    def refresh(self) -> cython.void:
+        """List pairs again, and measure them, if a body may move farther than the skin."""
         for body in self.bodies:
             if body.moved + body.way > self.skin:
                 self.list_pairs()
-                return True
-        return False
+                self.measure()
+                return
 
     def measure(self) -> cython.void:
         """Measure how far apart the circles of all listed pairs are."""

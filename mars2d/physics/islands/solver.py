@@ -77,7 +77,7 @@ class Solver:
         self.bodies.append(body)
         if not body.is_robot and body.rest_grip > 0.0:  # the floor is another one in each space
             body.allowed = body.twist_allowed = body.held = body.twist_held = 0.0
-            self.hold_by(body, chipmunk.ground_of(self.space))
+            self.attach(body)
             self.engage(body)
 
     def make(self, body: Body) -> cython.void:
@@ -102,10 +102,11 @@ class Solver:
                     join(piece.shape)
         if body.is_robot:
             body.control = chipmunk.new_control()
-            self.hold_by(body, body.control)
+            self.attach(body)
 
-    def hold_by(self, body: Body, holder: Handle) -> cython.void:
-        """Make the joints of a body start again: they make it move as its holder does."""
+    def attach(self, body: Body) -> cython.void:
+        """Make the joints of a body start again: to what drives it, or to the floor."""
+        holder: Handle = body.control if body.is_robot else chipmunk.ground_of(self.space)
         if body.wheeled:  # grooves are free along
             body.pivot = chipmunk.make_joint(
                 library.GROOVE, body.pivot, holder, body.handle, ENDS, 0.0, 1.0, 0.0
@@ -305,10 +306,7 @@ class Solver:
     def renew(self, body: Body) -> cython.void:
         """Let the joints of a body start again."""
         self.disengage(body)
-        if body.is_robot:
-            self.hold_by(body, body.control)
-        else:
-            self.hold_by(body, chipmunk.ground_of(self.space))
+        self.attach(body)
         self.engage(body)
 
     def relax(self) -> cython.void:
@@ -333,7 +331,7 @@ class Solver:
         for body in self.bodies:
             solved = solved or body.solved
             if body.is_robot and body.holds and not body.engaged:
-                self.hold_by(body, body.control)
+                self.attach(body)
                 self.engage(body)
         for body in self.bodies:
             if body.is_robot and body.engaged and not body.holds:
