@@ -121,11 +121,15 @@ class ParameterPanel(RowsPanel):
         if experiment is not None and body is not None:
             body = body if body < len(experiment.scenario.bodies) else None
         if self._known is None or self._known[0] is not experiment or self._known[1] != body:
+            selected = body is not None and (self._known is None or self._known[1] != body)
             self._known = experiment, body
             try:
                 self._lines = [] if experiment is None else list(_lines(experiment, body))
             except InputError as error:  # of a Range of a law
                 self._lines, self.said = [Line("No parameters")], (str(error), "error")
+            if selected:  # let its sliders be seen
+                heading = max(k for k, line in enumerate(self._lines) if line.parameter is None)
+                self.scroll = sum(line.height for line in self._lines[:heading])
             if self.focus not in {line.parameter.name for line in self._lines if line.parameter}:
                 self.leave()
         return self._lines
