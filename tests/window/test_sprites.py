@@ -155,14 +155,3 @@ def test_what_stays_between_two_pictures_is_not_drawn_again(record, monkeypatch)
 
     monkeypatch.setattr("mars2d.output.raster.brushes.layer", refuse)
     assert np.array_equal(pixels(viewer.draw()), pixels(before))
-
-
-def test_what_is_kept_has_a_bound(record):
-    viewer = Viewer(record)
-    painter = viewer.window._painter
-    painter._sprites = Sprites(1_000)
-    most = 0
-    for _ in range(30):
-        viewer.play(2, draw=True)
-        most = max(most, painter._sprites.kept)
-    assert 500 < most <= 1_000

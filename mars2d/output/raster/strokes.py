@@ -67,7 +67,11 @@ def hairlines(surface: pygame.Surface, ink: tuple[int, ...], points: Float, widt
     for shift in hair_shifts(width, normals):
         x, y = (points + shift).T.tolist()
         # Tuples of numbers, which the garbage collector untracks: thousands of lists slow it down.
-        pygame.draw.aalines(surface, ink, False, list(zip(x, y, strict=True)))
+        ends = list(zip(x, y, strict=True))
+        if len(ends) == 2:  # pygame's line of several pieces differs from run to run for one piece
+            pygame.draw.aaline(surface, ink, *ends)
+        else:
+            pygame.draw.aalines(surface, ink, False, ends)
 
 
 def hair_shifts(width: float, normals: Float) -> list[Float]:
