@@ -1,5 +1,6 @@
 """Games that people play: roles, the countdown, the end."""
 
+import numpy as np
 import pytest
 
 from mars2d.scenario.experiment import open_experiment
@@ -100,15 +101,36 @@ def test_who_wins_plays_faster_and_who_loses_no_slower_than_at_first(catch):
     assert window.player.speed == 1.0
 
 
-@each_case(("game", "robot", "keys"), [("escort", 1, "↑←↓→"), ("two_cars", 1, "←→")])
-def test_a_person_sees_the_keys_that_work(game, robot, keys):
-    assert "".join(opened(game, [robot]).game.seats[0].keys) == keys
+@each_case(
+    ("game", "robot", "keys", "distance"),
+    [
+        ("escort", 1, "↑←↓→", (0, 2)),  # the guard sees how near the hunter is to the prey
+        ("two_cars", 1, "←→", (0, 1)),
+    ],
+)
+def test_a_person_sees_the_keys_that_work_and_the_distance_that_counts(game, robot, keys, distance):
+    play = opened(game, [robot]).game
+    assert "".join(play.seats[0].keys) == keys
+    frame = play._player.frame
+    apart = np.hypot(*np.diff(frame.pose[:2, distance], axis=1)[:, 0])
+    assert play.distance(frame) == pytest.approx(apart)
 
 
-def test_who_stays_free_has_won(catch):
+def test_who_stays_free_has_won_and_that_is_counted(catch):
     window = opened(catch, [1], pursuer="rests.py", stop_time=3.0)
+    for wins in ([True], [True, True]):
+        run_to_the_end(window)
+        assert window.game.result.words == "You win"
+        assert window.game.tally == {"evader": wins}
+        window._restart()
+
+
+def test_a_game_that_hands_have_changed_does_not_count(catch):
+    window = opened(catch, [1])
+    window.director.change(lambda world: world.operator.place("red", (-2, 1, 0)))
     run_to_the_end(window)
-    assert window.game.result.words == "You win"
+    assert window.game.result is not None
+    assert window.game.tally == {}
 
 
 def test_two_people_have_keys_of_their_own(catch):
@@ -117,6 +139,7 @@ def test_two_people_have_keys_of_their_own(catch):
     assert [seat.keys[0] for seat in window.game.seats] == ["↑", "W"]
     run_to_the_end(window)
     assert window.game.result.words == "Evader wins"
+    assert window.game.tally == {"evader": [True], "pursuer": [False]}
 
 
 def test_a_law_that_fails_ends_no_game(catch):
@@ -161,6 +184,7 @@ def test_teams_have_scores(tmp_path):
     )
     window = opened(file, [0])
     assert window.game.score() == {"wolf": "1 caught", "sheep": "1 free"}
+    assert window.game.distance(window.player.frame) == pytest.approx(4.0)  # who is out is not near
 
 
 # -- in a window --------------------------------------------------------------------------------

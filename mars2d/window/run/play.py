@@ -6,8 +6,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 from mars2d.addons.contest import Contest, wins
 from mars2d.bodies.drives.base import Drive
+from mars2d.record.frame import Frame
+from mars2d.record.interventions import Steer
 from mars2d.scenario.law_reference import Reference
 from mars2d.scenario.roles import contests_of, role_of, roles_of
 from mars2d.window.run.director import Director
@@ -63,6 +67,7 @@ class Play:
         self.seats: tuple[Seat, ...] = ()
         self.counting = 0.0  # seconds to go
         self.result: Result | None = None
+        self.tally: dict[str, list[bool]] = {}  # of each role that people have played: their wins
 
     # -- who plays ----------------------------------------------------------------------------
 
@@ -153,6 +158,9 @@ class Play:
             return Result(record.over_message)
         winner = contest.outcome(record).winner
         mine = [seat for seat in self.seats if seat.role]
+        seated = all(isinstance(act, Steer) and not act.row for act in record.interventions)
+        for seat in mine if seated and not timeline.branches else ():  # else hands have changed it
+            self.tally.setdefault(seat.role, []).append(winner == seat.role)
         if winner is None:
             return Result("A draw")
         if len(self.seats) > 1 or not mine:
@@ -178,6 +186,24 @@ class Play:
             return {}
         pairs = zip(score.items(), contest.scored, strict=False)
         return {role: f"{points:g} {what}".strip() for (role, points), what in pairs}
+
+    def distance(self, frame: Frame) -> float | None:
+        """Return the distance [m] of the nearest hunter and hunted one, middle to middle.
+
+        Robots that are out of the game do not count, and of those in a single person's role only
+        the person's own, if it hunts or is hunted. None if there are no two.
+        """
+        timeline, contest = self._director.timeline, self.contest
+        if timeline is None or contest is None:
+            return None
+        own = [seat.robot for seat in self.seats if len(self.seats) == 1]
+        players = contest.players(frame.scenario)
+        teams = [[robot for robot in team if robot in own] or [*team] for team in players]
+        held = timeline.world.operator.held
+        free = [[robot for robot in team if robot not in held] for team in teams]
+        one, other = free if all(free) else teams
+        apart = frame.pose[:2, one, None] - frame.pose[:2, None, other]
+        return float(np.hypot(*apart).min())
 
     @property
     def task(self) -> str:

@@ -49,6 +49,10 @@ class ScorePanel(RowsPanel):
         left = max(scenario.stop_time - frame.time, 0.0)
         at_end = Word(f"{left:.1f} s", theme.ink, 24, bold=True)
         yield self.line(TIME, [Word("time left", theme.muted, SMALL)], [at_end])
+        distance = play.distance(frame)
+        if distance is not None:
+            at_end = Word(f"{distance:.2f} m", theme.ink, SIZE, bold=True)
+            yield self.line(ROW, [Word("distance", theme.muted, SMALL)], [at_end])
         yield Row(GAP, self._rule)
         score = play.score()
         for role, team in roles_of(scenario).items():
@@ -59,6 +63,8 @@ class ScorePanel(RowsPanel):
             if not seat.role:
                 about = str(scenario.robots[seat.robot].name), "you", ""
                 yield from self._role(frame, seat.robot, about, [seat], width)
+        for role, wins in play.tally.items():
+            yield from self._text(f"so far as {role}: won {sum(wins)} of {len(wins)}", width, 2)
 
     def _role(
         self,
