@@ -13,7 +13,7 @@ import pytest
 
 from mars2d import Car, Differential, Robot, Scenario, Unicycle, World
 from mars2d.addons import Map
-from mars2d.bodies import Ball, Box, Puck, Spring
+from mars2d.bodies import Ball, Box, Puck, Rope, Spring
 from tests.cases import each_case
 
 FAR = Robot(pose=(0, -90, 0))
@@ -269,3 +269,26 @@ def test_a_prop_that_is_pushed_off_its_middle_goes_as_by_much_finer_steps():
             return world.prop_pose[:2, 0]
 
         assert np.linalg.norm(end_of(0.1, 1e-3) - end_of(0.001, 1e-4)) < 4e-3, name
+
+
+@each_case("sampling_time", [0.1, 0.02])
+def test_a_robot_at_a_slack_rope_follows_its_command_at_once(sampling_time):
+    """The crate at the other end is pushed meanwhile, so that a solver steps both."""
+    tower = Robot(name="t", pose=(0, 0.95, 0), drive=Unicycle(max_force=2.0, max_torque=0.02))
+    pusher = Robot(pose=(-0.5, 0, 0), drive=Unicycle(max_force=3.0))
+    crate = Box(name="b", pose=(0, 0, 0), ground_friction=0.05)
+    rope = Rope(a="t", b="b", length=1.0)
+    world = world_of(
+        [tower, pusher], [crate], joints=[rope], sampling_time=sampling_time, stop_time=2.0
+    )
+    slack = 0
+    while not world.over:
+        turning = 1.5 if round(world.time / sampling_time) * sampling_time % 0.6 < 0.3 else -1.5
+        heading = world.pose[2, 0]
+        apart = [np.linalg.norm(world.pose[:2, 0] - world.prop_pose[:2, 0])]
+        world.step([[0.32, 0.3], [turning, 0.0]])
+        apart += [np.linalg.norm(world.pose[:2, 0] - world.prop_pose[:2, 0])]
+        if max(apart) < 1 - 1e-4:
+            slack += 1
+            assert world.pose[2, 0] - heading == pytest.approx(turning * sampling_time, abs=1e-9)
+    assert slack > 4
