@@ -356,11 +356,11 @@ class Scenario(Description):
 
         Raises InputError, which begins with `field`, if there is no such robot.
         """
-        return _index_of(field, "robot", robot, [str(each.name) for each in self.robots])
+        return index_among(field, "robot", robot, [str(each.name) for each in self.robots])
 
     def body_index_of(self, field: str, body: str | int) -> int:
         """Return the index in `bodies` of a robot or prop that is given by its name or index."""
-        return _index_of(field, "body", body, [rigid.name for rigid in self.bodies])
+        return index_among(field, "body", body, [rigid.name for rigid in self.bodies])
 
     def body_name(self, body: int) -> str:
         """Return the name of a body of a contact; -1 - k is obstacle k, or the wall."""
@@ -419,7 +419,8 @@ class Scenario(Description):
         return tuple(robot.color or base[i % len(base)] for i, robot in enumerate(self.robots))
 
 
-def _index_of(field: str, kind: str, wanted: str | int, names: list[str]) -> int:
+def index_among(field: str, kind: str, wanted: str | int, names: list[str]) -> int:
+    """Return the place of a name among others, or a place that there is; else InputError."""
     if isinstance(wanted, str):
         if wanted not in names:
             raise InputError(f"{field}: there is no {kind} {wanted!r}{nearest(wanted, names)}")

@@ -23,6 +23,7 @@ from mars2d.record.message import (
     as_text,
 )
 from mars2d.scenario.neighbours import Everyone, within
+from mars2d.scenario.scenario import index_among
 from mars2d.world.state import State
 
 Int = NDArray[np.int64]
@@ -164,10 +165,10 @@ class Channel:
         """Return the receivers of a message by index (k,), each once."""
         if to is None:
             return np.delete(np.arange(len(self._names)), sender)
-        where, index = f"robot.send(to={shown(to)})", self._world.scenario.index_of
+        where = f"robot.send(to={shown(to)})"
         listed = to if isinstance(to, (list, tuple, set, frozenset, np.ndarray)) else [to]
         try:
-            found = sorted({index(where, one) for one in listed})
+            found = sorted({index_among(where, "robot", one, self._names) for one in listed})
         except TypeError:
             raise LawError(f"{where}: expected {WHO}") from None
         except InputError as error:

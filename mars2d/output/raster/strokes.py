@@ -69,7 +69,7 @@ def hairlines(surface: pygame.Surface, ink: tuple[int, ...], points: Float, widt
         # Tuples of numbers, which the garbage collector untracks: thousands of lists slow it down.
         ends = list(zip(x, y, strict=True))
         if len(ends) == 2:  # pygame's line of several pieces differs from run to run for one piece
-            pygame.draw.aaline(surface, ink, *ends)
+            pygame.draw.aaline(surface, ink, ends[0], ends[1])
         else:
             pygame.draw.aalines(surface, ink, False, ends)
 

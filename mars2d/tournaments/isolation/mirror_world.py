@@ -41,7 +41,6 @@ class Mailbox(Channel):
     ) -> None:
         """Take the names of all robots, the most bytes to be sent, and what has arrived."""
         self._names = [*names]
-        self._indices = {name: i for i, name in enumerate(names)}
         self._limit, self._size, self.arrived = limit, 0, arrived
         self.sent: list[Letter] = []
 
