@@ -342,7 +342,7 @@ def scale_all(solver: Solver, numbers: list[Body], impact: Impact) -> cython.voi
 def take_holds(solver: Solver, h: cython.double) -> cython.void:
     """Find the groups that joints hold, and the impulses on them that no drive or pull explains."""
     for tie in solver.ties:
-        if tie.is_rope and solver.pull_of(tie) == 0.0:
+        if tie.is_rope and not tie.springy and solver.pull_of(tie) == 0.0:
             continue
         tie.a.tied = tie.b.tied = True
         join_groups(tie.a, tie.b)
