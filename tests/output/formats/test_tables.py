@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 import xarray as xr
+from numpy.testing import assert_allclose
 
 import mars2d
 from tests.cases import each_case
@@ -16,33 +17,26 @@ NAMES = ["robot0", 'größe, "x"', "robot2", "puck0", "load"]
 # -- csv ------------------------------------------------------------------------------------
 
 
-def near(read, written):
-    """Return whether numbers are what was written, but for the last digit that pandas rounds."""
-    return np.allclose(read, written, rtol=1e-15, atol=0)
-
-
 def test_a_csv_has_a_row_for_each_time_and_body_which_pandas_reads_without_options(tmp_path):
     record = everything()
-    frame = pd.read_csv(record.save(tmp_path / "run.csv"))
+    frame = pd.read_csv(record.save(tmp_path / "run.csv")).set_index(["time", "body"])
     assert list(frame.columns)[-1] == "record"
-    frame = frame.set_index(["time", "body"])
     assert len(frame) == 5 * len(record)
     assert frame.index.get_level_values("body")[:6].tolist() == [*NAMES, "robot0"]
     for k, name in enumerate(NAMES[:3]):
         own = frame.xs(name, level="body")
-        assert near(own.index, record.time)
-        assert near(own[["x", "y", "theta"]], record.pose[:, :, k])
-        assert near(own[["command_0", "command_1"]], record.command[:, :, k])
-        assert near(own["effort"], record.effort[:, k])
-        assert near(own["command_time"], record.command_time)
+        assert_allclose(own.index, record.time, rtol=1e-15)
+        assert_allclose(own[["x", "y", "theta"]], record.pose[:, :, k], rtol=1e-15)
+        assert_allclose(own[["command_0", "command_1"]], record.command[:, :, k], rtol=1e-15)
+        assert_allclose(own["effort"], record.effort[:, k], rtol=1e-15)
+        assert_allclose(own["command_time"], record.command_time, rtol=1e-15)
     load = frame.xs("load", level="body")
-    assert near(load[["x", "y", "theta"]], record.prop_pose[:, :, 1])
+    assert_allclose(load[["x", "y", "theta"]], record.prop_pose[:, :, 1], rtol=1e-15)
     assert load[["command_0", "command_time", "effort"]].isna().all(axis=None)
     own = frame.xs("robot2", level="body")
-    assert near(own["grid_1_2"], record.sensors["grid"][:, 1, 1, 2])
+    assert_allclose(own["grid_1_2"], record.sensors["grid"][:, 1, 1, 2], rtol=1e-15)
     assert own["grid_1_1"].tolist() == [np.inf] * len(record)
-    seen = frame.xs("robot0", level="body")["proximity"].tolist()
-    assert seen == record.sensors["proximity"][:, 0].tolist()
+    assert [*frame.xs("robot0", level="body")["proximity"]] == [*record.sensors["proximity"][:, 0]]
 
 
 def test_what_does_not_fit_beside_the_rows_of_a_csv_follows_them(tmp_path):
