@@ -67,9 +67,9 @@ def tasks(local):
 
 @pytest.fixture
 def executor(local):
-    local.wait_for_workers(2)  # one that was killed takes a moment to come back
     with Client(local, set_as_default=False) as client:
         yield client
+        client.wait_for_workers(2)  # closing while one starts again fails
 
 
 @pytest.mark.nightly
