@@ -507,6 +507,7 @@ class Island:
     def arrive(self, body: Body) -> cython.void:
         """Note that a body has moved in closed form."""
         body.slips = body.slips and body.is_robot and not body.limited and body.accelerates
+        body.applied_x = body.applied_y = body.applied_turn = 0.0
         body.account_now()
 
     def take(self, body: Body, h: cython.double) -> cython.void:
