@@ -32,13 +32,12 @@ def hold(body: Body, h: cython.double) -> cython.void:
     spin: cython.double = body.lever * body.spin
     slide: cython.double = body.slows * h
     twist: cython.double = body.lever * body.stops * h
-    most: cython.double = 1.0
-    if length(length(body.vx, body.vy), spin) <= max(1e-6, 0.01 * slide):
-        most = body.rest_grip / max(body.grip, 1e-300)
-    first: cython.double = length(body.vx + x, body.vy + y) / max(most * slide, 1e-300)
-    second: cython.double = abs(spin + turn) / max(most * twist, 1e-300)
-    if length(first, second) <= 1.0:
-        body.allowed, body.twist_allowed = most * body.grip, most * body.twist_grip
+    rests: cython.bint = length(length(body.vx, body.vy), spin) <= max(1e-6, 0.01 * slide)
+    grip: cython.double = body.rest_grip if rests else body.grip
+    first: cython.double = length(body.vx + x, body.vy + y) * (body.mass / h)
+    second: cython.double = abs(spin + turn) / (body.lever * body.lever) * (body.moment / h)
+    if length(first, second) <= grip:
+        body.allowed, body.twist_allowed = grip, grip * body.lever
         return
     u: cython.double = max(length(body.vx + x / 2, body.vy + y / 2), 1e-300)
     s: cython.double = abs(spin + turn / 2)
