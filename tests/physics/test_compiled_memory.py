@@ -32,7 +32,7 @@ from mars2d.addons import Map
 from tests.physics.test_same_bits import crowd
 
 def scenario(physics):
-    scene = crowd(3, 40, gap=0.0, faults=True, things=True, physics=physics, max_overlap=0.01)
+    scene = crowd(5, 12, gap=0.0, faults=True, things=True, physics=physics, max_overlap=0.01)
     first, *others = scene.robots
     rubs = first.replace(friction="steel", static_friction=0.9)
     pairs = [MaterialPair("ice", "steel", friction=0.03, restitution=0.5)]
