@@ -27,7 +27,7 @@ from mars2d.physics.islands.tie import Tie
 if TYPE_CHECKING:
     from mars2d.physics.islands.mover import Mover
 
-FEW = 4
+FEW_MEET = 4
 """Of how many bodies at most a substep ends where one meets another; a crowd would take longer."""
 
 STUCK = 16
@@ -399,7 +399,7 @@ class Island:
             body.look()
         for body in self.bodies:
             h = min(h, body.time_to_turn(accuracy.entry / 8))
-        few: cython.bint = self.any_solved and len(self.bodies) <= FEW
+        few: cython.bint = self.any_solved and len(self.bodies) <= FEW_MEET
         for pair in self.pairs:
             if few and pair.gap > accuracy.slop and pair.is_solved():
                 # What drives do after a blow they do not do before it: a substep ends there.
