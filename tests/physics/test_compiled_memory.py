@@ -61,7 +61,7 @@ print(worlds({count}) - before)
 """
 
 
-@each_case(("plain", "count"), [("", 1000), ("1", 100)])
+@each_case(("plain", "count"), [("", 400), ("1", 60)])
 def test_worlds_made_and_dropped_take_no_memory(child, plain, count):
     """A world of this scene takes some hundred kilobytes while it is there."""
     done = child(SCENE + MANY.format(count=count), MARS2D_PLAIN=plain)

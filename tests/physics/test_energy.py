@@ -148,21 +148,6 @@ def test_no_tangle_of_shapes_gains_energy_or_loses_momentum(restitution, frictio
             assert world.momentum.angular == pytest.approx(angular, abs=near)
 
 
-def test_robots_that_brake_gain_no_energy_from_what_hits_them():
-    rng = np.random.default_rng(3)
-    look = {"friction": 1.0, "restitution": 1.0}
-    drive = Unicycle(max_force=3, max_torque=0.2)
-    robots = [Robot(pose=(cos(k), sin(k), k), drive=drive, **look) for k in range(6)]
-    props = [
-        Box(
-            pose=(2.5 * cos(k), 2.5 * sin(k), k), ground_friction=0.0, **look,
-            velocity=(-2 * cos(k), -2 * sin(k), rng.uniform(-4, 4)),
-        )
-        for k in range(6)
-    ]  # fmt: skip
-    assert_never_grows(balanced(endless(robots, props, sampling_time=0.02), 3))
-
-
 # -- several at once --------------------------------------------------------------------------
 
 

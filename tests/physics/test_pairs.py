@@ -303,22 +303,6 @@ def test_until_the_time_to_touch_discs_get_no_deeper_than_allowed(seed, depth):
             assert pair.gap >= floor - 1e-12
 
 
-@each_case("seed", range(5))
-def test_few_bounds_one_after_the_other_lead_up_to_the_touch(seed):
-    rng = np.random.default_rng(seed)
-    two = Two(SQUARE * rng.uniform(0.2, 1.0), [2 - 9j, 2 + 9j], wall=True)
-    speed, spin = rng.uniform(0.2, 1.0), rng.uniform(-3, 3)
-    velocity = speed * np.exp(1j * rng.uniform(-1, 1))
-    let_move(two.a, velocity, spin)
-    t, calls, depth = 0.0, 0, 1e-3
-    while two.pair.gap > 0:
-        t += two.pair.time_to_touch(LONG, depth)
-        calls += 1
-        two.put((velocity * t, 0j), (spin * t, 0.0))
-        assert two.pair.gap >= -depth - 1e-12
-    assert calls < 20
-
-
 @each_case("seed", range(20))
 def test_along_a_face_the_time_to_touch_of_a_translation_is_exact(seed):
     rng = np.random.default_rng(seed)
