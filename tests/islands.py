@@ -8,9 +8,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pymunk
 import pytest
 
 from mars2d import Scenario
+from mars2d.core.plane import edges_of
 from mars2d.physics import translation
 from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.island import Island
@@ -101,3 +103,33 @@ def let_move(body: Body, velocity: complex, spin: float = 0.0, acceleration: flo
 def states_of(bodies: Sequence[Body]) -> np.ndarray:
     """Return x, y, theta of bodies, (k, 3)."""
     return np.array([(body.x, body.y, body.angle) for body in bodies])
+
+
+WALLS_ALONE = pymunk.ShapeFilter(mask=2)
+"""What asks a space of pymunk for walls and nothing else."""
+
+
+def pymunk_space(
+    bodies: Sequence[Any], poses: np.ndarray, outlines: Sequence[Any]
+) -> tuple[pymunk.Space, list[pymunk.Body]]:
+    """Return a space of pymunk in which bodies (N,), as their pieces, are at poses (N, 3).
+
+    Shapes of body i are of the group i + 1, and obstacles, edge by edge, of none.
+    """
+    space, movers = pymunk.Space(), []
+    for i, (pieces, (x, y, theta)) in enumerate(zip(bodies, poses.tolist(), strict=True)):
+        mover = pymunk.Body(1.0, 1.0)
+        mover.position, mover.angle = (x, y), theta
+        space.add(mover)
+        movers.append(mover)
+        for points, radius in pieces:
+            disc = len(points) == 1
+            shape = pymunk.Circle(mover, radius, points[0]) if disc else pymunk.Poly(mover, points)
+            shape.filter = pymunk.ShapeFilter(i + 1, categories=1)
+            space.add(shape)
+    for outline in outlines:
+        for edge in edges_of(outline):
+            wall = pymunk.Segment(space.static_body, *edge, 0.0)
+            wall.filter = pymunk.ShapeFilter(categories=2)
+            space.add(wall)
+    return space, movers

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from math import cos, sin
 from pathlib import Path
 from typing import Any
 
@@ -52,6 +53,15 @@ def drive(world: World, command: Any, seconds: float) -> np.ndarray:
         world.step(command)
         poses.append(np.hstack([world.pose, world.prop_pose]))
     return np.array(poses)
+
+
+def arc(pose: Sequence[float], v: float, omega: float, t: float) -> tuple[float, float, float]:
+    """Where a unicycle gets from a pose: the integral of v (cos, sin)(theta + omega t)."""
+    x, y, theta = pose
+    if omega == 0:
+        return x + v * t * cos(theta), y + v * t * sin(theta), theta
+    end, radius = theta + omega * t, v / omega
+    return x + radius * (sin(end) - sin(theta)), y - radius * (cos(end) - cos(theta)), end
 
 
 def finished(scenario: Scenario, seed: int = 0) -> World:

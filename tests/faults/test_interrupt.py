@@ -9,22 +9,13 @@ from pathlib import Path
 import pytest
 
 import mars2d
+from tests.faults.test_disk import LAW
 from tests.processes import PATIENCE, wait_until
 
 pytestmark = [
     pytest.mark.slow,
     pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX"),
 ]
-
-LAW = """
-from mars2d import Robot, Scenario
-
-scenario = Scenario(robots=[Robot(pose=(x, 0, x)) for x in (-2, 0, 2)], stop_time=60,
-                    sampling_time=0.05, on_exit="wall")
-
-def control(world):
-    return [[0.3, 0.2, 0.1], [0.5, 0.1, -0.5]]
-"""
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="libraries are looked for in /proc")

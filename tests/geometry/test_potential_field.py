@@ -111,39 +111,40 @@ def test_arrows_point_where_the_force_does_and_leave_out_obstacles():
 
 # -- the add-on -----------------------------------------------------------------------------------
 
-
-def scenario(*addons, field=None):
-    field = PotentialField() if field is None else field
-    walls = Map([[(2, -1), (2, 1)], [(1, 1), (2, 1)], [(1, -1), (2, -1)]])
-    return Scenario(robots=[Robot(diameter=0.2)], addons=[walls, *addons, field])
-
-
 WAYS = Waypoints([[(1, 0), (4, 0.2)]])
 
 
+def world_of(*addons):
+    addons = [Map(TRAP), *addons, PotentialField()]
+    return World(Scenario(robots=[Robot(diameter=0.2)], addons=addons))
+
+
+def drawn(world):
+    """What the field shows of its theory."""
+    scene = Scene()
+    world.scenario.addons[-1].theory(scene, world.frame)
+    return scene.shapes
+
+
 def test_laws_ask_the_add_on_for_the_force_on_a_robot():
-    world = World(scenario(WAYS))
+    world = world_of(WAYS)
     expected = Potential(world.obstacles, radius=0.1).force((0, 0), (1, 0))
     assert world.addons.potential_field.force(0) == expected
 
 
 def test_it_needs_waypoints():
-    world = World(scenario())
+    world = world_of()
     with pytest.raises(InputError, match=r"PotentialField needs goals: add Waypoints"):
         world.addons.potential_field.force(0)
-    scene = Scene()
-    world.scenario.addons[1].theory(scene, world.frame)
-    assert not scene.shapes
+    assert not drawn(world)
 
 
 def test_theory_shows_arrows_to_the_goal_of_now_and_a_cross_at_the_trap():
-    world = World(scenario(WAYS))
-    scene = Scene()
-    world.scenario.addons[2].theory(scene, world.frame)
-    arrows = [shape for shape in scene.shapes if isinstance(shape, Arrow)]
-    lines = [shape for shape in scene.shapes if isinstance(shape, Line)]
-    assert arrows
-    (reached, end), *_ = world.scenario.addons[2].plan(world.scenario)
+    world = world_of(WAYS)
+    shapes = drawn(world)
+    assert any(isinstance(shape, Arrow) for shape in shapes)
+    lines = [shape for shape in shapes if isinstance(shape, Line)]
+    (reached, end), *_ = world.scenario.addons[-1].plan(world.scenario)
     assert reached == 1
     assert all(line.points.mean(axis=0) == pytest.approx(end) for line in lines)
     assert len(lines) == 4  # two strokes, each with a rim

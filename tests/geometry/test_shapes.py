@@ -107,10 +107,6 @@ def test_an_outline_is_cut_into_few_convex_pieces(name, way):
     assert shape.area == pytest.approx(abs(_area(outline)), rel=1e-14)
 
 
-def _star_shaped(angles, radii, dx, dy):
-    return [(r * cos(a) + dx, r * sin(a) + dy) for a, r in zip(sorted(angles), radii, strict=False)]
-
-
 @given(
     steps=st.lists(st.floats(0.2, 1.0), min_size=5, max_size=30),
     radii=st.lists(st.floats(0.2, 1.0), min_size=30, max_size=30),
@@ -120,7 +116,8 @@ def _star_shaped(angles, radii, dx, dy):
 @settings(max_examples=20, deadline=None)
 def test_the_pieces_of_any_star_shaped_outline_fit(steps, radii, offset, way):
     angles = 2 * pi * np.cumsum(steps) / sum(steps)
-    outline = _star_shaped(angles.tolist(), radii, *offset)
+    around = zip(angles.tolist(), radii, strict=False)
+    outline = [(r * cos(a) + offset[0], r * sin(a) + offset[1]) for a, r in around]
     try:
         shape = Polygon(outline[::way])
     except InputError as error:
@@ -258,14 +255,9 @@ def test_the_bound_holds_the_shape_and_is_not_loose(name):
         hypot(px - x, py - y) + piece.radius for piece in shape.pieces for px, py in piece.vertices
     ]
     assert max(reaches) <= radius
-    region = shapely.union_all(
-        [
-            shapely.Point(piece.vertices[0]).buffer(piece.radius, quad_segs=64)
-            if piece.radius
-            else shapely.Polygon(piece.vertices)
-            for piece in shape.pieces
-        ]
-    )
+    discs = [shapely.Point(p.vertices[0]).buffer(p.radius) for p in shape.pieces if p.radius]
+    polygons = [shapely.Polygon(piece.vertices) for piece in shape.pieces if not piece.radius]
+    region = shapely.union_all([*discs, *polygons])
     assert radius <= shapely.minimum_bounding_radius(region) * (1 + 2e-3)
 
 

@@ -15,6 +15,7 @@ import pytest
 import mars2d
 from mars2d.physics.islands.build import compile_into
 from tests.cases import each_case
+from tests.islands import FIND_TESTS
 
 pytestmark = [
     pytest.mark.nightly,
@@ -23,36 +24,21 @@ pytestmark = [
 
 COMPILER = (os.environ.get("CC") or sysconfig.get_config_var("CC") or "").split()
 
-SCENE = """
-from mars2d import MaterialPair, Robot, Scenario, World
+SCENE = (
+    FIND_TESTS
+    + """
+from mars2d import MaterialPair, World
 from mars2d.addons import Map
-from mars2d.bodies.joints import Hinge, Rod, Rope, Spring
-from mars2d.bodies.props import Ball, Box, Gate
-from mars2d.geometry.shapes import Polygon
-
-wedge = Polygon([(-0.15, -0.12), (0.2, 0), (-0.15, 0.12)])
-shapes = [None, wedge, wedge]
-robots = [
-    Robot(
-        pose=(0.45 * (i % 5), 0.45 * (i // 5), i), shape=shapes[i % 3],
-        friction=("steel", "ice", 0.5)[i % 3], static_friction=0.9,
-    )
-    for i in range(20)
-]
-props = [Ball(pose=(0.3 * k, -1, 0)) if k % 2 else Box(pose=(0.7 * k, -1.6, k)) for k in range(6)]
-joints = [
-    Rope(a="robot0", b="robot1"), Spring(a="robot5", b="robot6"), Rod(a="robot10", b="robot11"),
-    Hinge(a="robot14", b=None, anchor_b=(1.8, 0.9)),
-]
+from tests.physics.test_same_bits import crowd
 
 def scenario(physics):
-    return Scenario(
-        robots=robots, props=[*props, Gate(pose=(3.5, 0, 0))], joints=joints, physics=physics,
-        max_overlap=0.01, addons=[Map([[(-0.5, -0.5), (3, -0.5)], [(-0.5, -0.5), (-0.5, 3)]])],
-        workspace=[(-3, -3), (6, -3), (6, 5), (-3, 5)], on_exit="wall", stop_time=100,
-        material_pairs=[MaterialPair("ice", "steel", friction=0.03, restitution=0.5)],
-    )
+    scene = crowd(5, 12, gap=0.0, faults=True, things=True, physics=physics, max_overlap=0.01)
+    first, *others = scene.robots
+    rubs = first.replace(friction="steel", static_friction=0.9)
+    pairs = [MaterialPair("ice", "steel", friction=0.03, restitution=0.5)]
+    return scene.replace(robots=[rubs, *others], material_pairs=pairs)
 """
+)
 """Robots, props and joints of many kinds and surfaces, close to each other and to walls."""
 
 MANY = """
@@ -64,7 +50,7 @@ def worlds(count):
     for _ in range(count):
         world = World(scene)
         for _ in range(3):
-            world.step([[1.0] * 20, [0.5] * 20])
+            world.step([[1.0] * len(scene.robots), [0.5] * len(scene.robots)])
         assert len(world.record.contacts)
         del world
         gc.collect()
@@ -75,7 +61,7 @@ print(worlds({count}) - before)
 """
 
 
-@each_case(("plain", "count"), [("", 1000), ("1", 100)])
+@each_case(("plain", "count"), [("", 400), ("1", 60)])
 def test_worlds_made_and_dropped_take_no_memory(child, plain, count):
     """A world of this scene takes some hundred kilobytes while it is there."""
     done = child(SCENE + MANY.format(count=count), MARS2D_PLAIN=plain)
@@ -94,7 +80,7 @@ for physics in ("contact", "stop", "ideal"):
     world = World(scenario(physics))
     contacts = 0
     for _ in range(40):
-        world.step(rng.uniform(-1, 1, (2, 20)))
+        world.step(rng.uniform(-1, 1, (2, len(world.robots))))
         contacts += len(world.contacts)
     assert contacts > 10
     del world

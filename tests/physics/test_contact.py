@@ -28,21 +28,15 @@ def wall_at(x: float) -> list[tuple[float, float]]:
     return [(x, -1.0), (x, 1.0)]
 
 
-def test_without_contact_there_are_no_rows():
-    world = world_of(Robot(), Robot(pose=(1, 0, 0)))
-    contacts = drive(world, [[0, 0], [0, 0]], 3)
-    assert contacts.dtype == CONTACT
-    assert len(contacts) == 0
-    assert world.record.collisions == 0
-
-
 def test_two_robots_that_meet_make_one_row_each_control_step():
     world = world_of(Robot(), Robot(pose=(0.51, 0, np.pi)))
-    contacts = drive(world, [[0.2, 0.2], [0, 0]], 20)
+    none = drive(world, [[0, 0], [0, 0]], 3)
+    assert (none.dtype, len(none), world.record.collisions) == (CONTACT, 0, 0)
+    contacts = drive(world, [[0.2, 0.2], [0, 0]], 17)
     assert set(zip(contacts["a"].tolist(), contacts["b"].tolist(), strict=True)) == {(0, 1)}
     # The gap of 0.21 m closes at 0.4 m/s: they meet after 0.525 s.
-    assert contacts["time"][0] == pytest.approx(0.525, abs=5e-3)
-    assert len(contacts) == pytest.approx(15, abs=1)
+    assert contacts["time"][0] == pytest.approx(0.3 + 0.525, abs=5e-3)
+    assert len(contacts) == pytest.approx(12, abs=1)
     steps = np.floor(contacts["time"] / 0.1 + 1e-9)
     assert len(np.unique(steps)) == len(contacts)
 
@@ -55,14 +49,6 @@ def test_the_normal_points_from_a_to_b_and_the_point_lies_on_the_surface_of_a():
     row = contacts[0]
     assert row["normal"] == pytest.approx([0.8, 0.6], abs=1e-3)
     assert row["point"] == pytest.approx([1 + 0.15 * 0.8, 1 + 0.15 * 0.6], abs=2e-3)
-
-
-def test_the_lower_index_is_a_even_if_the_other_one_drives():
-    world = world_of(Robot(pose=(0.5, 0, 0)), Robot(pose=(0, 0, 0)), Robot(pose=(-9, 0, 0)))
-    contacts = drive(world, [[0, 0.3, 0], [0, 0, 0]], 15)
-    assert (contacts["a"] == 0).all()
-    assert (contacts["b"] == 1).all()
-    assert contacts["normal"][0] == pytest.approx([-1, 0], abs=1e-6)
 
 
 @each_case("sampling_time", [0.05, 0.1, 1.0])
@@ -82,36 +68,30 @@ def test_pressing_against_a_wall_gives_the_impulse_force_times_time(force, sampl
     assert late["point"][:, 0] == pytest.approx(0.3, abs=1e-3)
 
 
-def test_obstacles_are_numbered_from_minus_one_down_over_all_addons():
-    maps = [
-        Map([wall_at(50), wall_at(60)], name="far"),
-        Map([wall_at(70), wall_at(0.3)], name="near"),
-    ]
-    world = world_of(Robot(), addons=maps)
-    contacts = drive(world, [[0.3], [0]], 10)
-    assert len(contacts) > 0
-    assert (contacts["b"] == -4).all()
-    assert world.obstacles[3] == tuple(wall_at(0.3))
+SQUARE = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+FAR = [Map([wall_at(50), wall_at(60)], name="far"), Map([wall_at(70), wall_at(80)], name="more")]
 
 
-def test_the_walls_of_the_workspace_come_last():
-    square = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
-    maps = [Map([[(0.5, 5), (0.5, 6)], [(0.6, 5), (0.6, 6)]])]
-    world = world_of(Robot(), addons=maps, workspace=square, on_exit="wall")
-    contacts = drive(world, [[0.5], [0]], 30)
-    assert len(contacts) > 0
-    assert (contacts["b"] == -3).all()
-
-
-def test_all_edges_of_an_obstacle_are_one_thing_with_a_row_for_each_normal():
-    corner = [(0.3, -0.3), (0.3, 0.16), (-1, 0.16), (-1, 2), (2, 2), (2, -0.3)]
-    robot = Robot(drive=Holonomic())
-    world = world_of(robot, addons=[Map([corner])])
-    contacts = drive(world, [[0.2], [0.2]], 20)
-    assert set(contacts["b"]) == {-1}
-    assert contacts["normal"][-2:] == pytest.approx(np.eye(2)[::-1], abs=1e-9)  # in the corner
-    assert contacts["ended"].sum() == 0
-    assert world.record.collisions == 1
+@each_case(
+    ("others", "fields", "pair"),
+    [
+        ([Robot(pose=(0.4, 0, 0)), Robot(pose=(-9, 0, 0))], {}, (0, 1)),
+        ([], {"addons": [*FAR, Map([wall_at(70), wall_at(0.3)], name="near")]}, (0, -6)),
+        ([], {"addons": FAR, "workspace": SQUARE, "on_exit": "wall"}, (0, -5)),
+        ([Robot(pose=(0, 5, 0))], {"props": [Puck(pose=(3, 3)), Box(pose=(0.5, 0, 0))]}, (0, 3)),
+    ],
+)
+def test_bodies_are_numbered_on_and_obstacles_down_with_the_workspace_as_the_last(
+    others, fields, pair
+):
+    robots = [Robot(), *others]
+    for drives in range(2 if len(others) == 2 else 1):  # the lower index is a whoever drives
+        world, command = world_of(*robots, **fields), np.zeros((2, len(robots)))
+        command[0, drives] = 0.5 - drives
+        contacts = drive(world, command, 30)
+        assert set(contacts[["a", "b"]].tolist()) == {pair}
+        assert contacts["normal"][0] == pytest.approx([1, 0], abs=1e-6)
+        assert pair[1] >= 0 or len(world.obstacles) == -pair[1]
 
 
 def test_the_views_of_a_law_show_its_own_contacts_of_the_last_step():
@@ -134,29 +114,6 @@ def test_robots_that_stand_at_exactly_zero_distance_are_no_trouble(gap):
     world = world_of(Robot(), Robot(pose=(0.3 + gap, 0, 0)), addons=[Map([wall_at(0.45)])])
     drive(world, [[0, 0], [0, 0]], 5)
     assert np.abs(world.pose[0] - [0, 0.3]).max() < 5e-5  # a quarter of the slop each
-
-
-# -- the fields of a contact, as a run gives them -------------------------------------------------
-
-
-def test_an_impact_has_the_speed_and_slip_at_which_the_surfaces_met():
-    # It slides along the wall at 0.3 m/s as it comes towards it at 0.4 m/s; no friction turns it.
-    robot = Robot(drive=Holonomic(max_force=1e-6), friction=0.0)
-    world = world_of(robot, addons=[Map([wall_at(0.3)])])
-    row = drive(world, [[0.4], [0.3]], 6)[0]
-    assert row["began"]
-    assert row["speed"] == pytest.approx(0.4, rel=1e-3)
-    assert row["slip"] == pytest.approx(-0.3, rel=1e-3)  # of the wall along the robot
-    assert row["normal_impulse"] == pytest.approx(0.4, rel=1e-3)
-    assert abs(row["tangential_impulse"]) < 1e-9
-
-
-def test_props_are_numbered_after_the_robots():
-    props = [Puck(pose=(3, 3)), Box(pose=(0.5, 0, 0))]
-    world = world_of(Robot(), Robot(pose=(0, 5, 0)), props=props)
-    contacts = drive(world, [[0.3, 0], [0, 0]], 15)
-    assert set(zip(contacts["a"].tolist(), contacts["b"].tolist(), strict=True)) == {(0, 3)}
-    assert contacts["normal"][0] == pytest.approx([1, 0], abs=1e-6)
 
 
 def test_a_run_that_a_law_breaks_off_in_contact_can_be_run_again():

@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-import pytest
 
 import mars2d
 from mars2d import Car, Differential, Holonomic, Robot, Scenario, Unicycle, World, sensors
@@ -33,20 +32,15 @@ def crowd(**fields) -> Scenario:
     return Scenario(robots=robots, workspace=box, on_exit="wall", stop_time=3)
 
 
-def test_running_twice_gives_the_same_and_other_seeds_give_others():
-    first, second = mars2d.run(crowd(), seed=1), mars2d.run(crowd(), seed=1)
-    assert first.digest == second.digest
-    assert first.collisions > 0
-    assert len({mars2d.run(crowd(), seed=seed).digest for seed in range(3)}) == 3
-
-
-def test_worlds_stepped_in_turn_give_what_each_gives_alone():
-    alone = [mars2d.run(crowd(), seed=seed).digest for seed in (1, 2)]
-    worlds = [World(crowd(), seed=seed) for seed in (1, 2)]
+def test_worlds_stepped_in_turn_give_what_each_gives_alone_and_other_seeds_give_others():
+    alone = [mars2d.run(crowd(), seed=seed).digest for seed in range(3)]
+    worlds = [World(crowd(), seed=seed) for seed in range(3)]
     while not worlds[0].over:
         for world in worlds:
             world.step()
+    assert worlds[0].record.collisions > 0
     assert [world.record.digest for world in worlds] == alone
+    assert len(set(alone)) == 3
 
 
 def test_a_sensor_more_changes_neither_noise_nor_laws():
@@ -195,16 +189,6 @@ def test_in_contact_another_order_changes_last_digits_alone_until_chaos_makes_mo
     assert np.abs(before.pose - after.pose[..., ::-1]).max() < 1e-4
 
 
-def test_the_recorded_commands_alone_give_the_same_run():
-    scenario = crowd().replace(command_delay=0.25)
-    record = mars2d.run(scenario, seed=4)
-    bare = scenario.replace(robots=[robot.replace(controller=None) for robot in scenario.robots])
-    world = World(bare)
-    for command in record.command:
-        world.step(command)
-    assert world.record.digest == record.digest
-
-
 def test_global_random_numbers_are_neither_used_nor_changed():
     np.random.seed(0)  # noqa: NPY002 - this is what is tested
     before = np.random.get_state()[1].tolist()  # noqa: NPY002
@@ -212,10 +196,3 @@ def test_global_random_numbers_are_neither_used_nor_changed():
     assert np.random.get_state()[1].tolist() == before  # noqa: NPY002
     np.random.seed(1)  # noqa: NPY002
     assert mars2d.run(crowd(), seed=1).digest == digest
-
-
-@pytest.mark.nightly
-@pytest.mark.parametrize("seed", range(20))
-def test_long_crowded_runs_are_the_same_twice(seed):
-    scenario = crowd().replace(stop_time=60)
-    assert mars2d.run(scenario, seed=seed).digest == mars2d.run(scenario, seed=seed).digest

@@ -6,6 +6,7 @@ from math import cos, pi, sin, sqrt
 
 import numpy as np
 import pytest
+import shapely
 
 from mars2d import Holonomic, Robot, Unicycle
 from mars2d.addons import Map
@@ -14,18 +15,10 @@ from mars2d.core.materials import GRAVITY
 from mars2d.geometry.shapes import Polygon
 from mars2d.record import episodes
 from tests.cases import each_case
-from tests.worlds import drive, endless
+from tests.worlds import arc, drive, endless
 
 SQUARE = Polygon([(-0.15, -0.15), (0.15, -0.15), (0.15, 0.15), (-0.15, 0.15)])
 DEEPEST = 2e-4  # metres
-
-
-def arc(pose, v: float, omega: float, t: float) -> list[float]:
-    x, y, theta = pose
-    if omega == 0:
-        return [x + v * t * cos(theta), y + v * t * sin(theta), theta]
-    end = theta + omega * t
-    return [x + v / omega * (sin(end) - sin(theta)), y - v / omega * (cos(end) - cos(theta)), end]
 
 
 def corners(pose, half=0.15) -> np.ndarray:
@@ -155,47 +148,39 @@ def test_stop_is_exact_where_nothing_touches():
 
 
 @each_case("sampling_time", [0.05, 0.5])
-@each_case("seed", range(4))
-def test_stop_in_a_crowd_nothing_overlaps_and_none_is_held_for_good(seed, sampling_time):
+@each_case("shape", [None, SQUARE])
+@each_case("seed", range(3))
+def test_stop_in_a_crowd_nothing_overlaps_and_none_is_held_for_good(seed, shape, sampling_time):
     rng = np.random.default_rng(seed)
-    places = [(0.45 * (k % 3 - 1), 0.45 * (k // 3 - 1)) for k in range(9)]
     robots = [
         Robot(
-            pose=(x, y, rng.uniform(-3, 3)),
-            drive=(Unicycle, Holonomic)[k % 2](max_linear_speed=1.0),
+            pose=(0.5 * (k % 3 - 1), 0.5 * (k // 3 - 1), rng.uniform(-3, 3) if not shape else 0),
+            drive=(Unicycle, Holonomic)[k % 2](max_linear_speed=1.0), shape=shape,
         )
-        for k, (x, y) in enumerate(places)
-    ]
-    h = 0.8
+        for k in range(9)
+    ]  # fmt: skip
+    h, reach, half = 0.8, 0.0 if shape else 0.15, DEEPEST / 2
     room = [(-h, -h), (h, -h), (h, h), (-h, h)]
+    inside = shapely.box(-h - half, -h - half, h + half, h + half)
     world = endless(
         robots, workspace=room, on_exit="wall", sampling_time=sampling_time, physics="stop"
     )
-    i, j = np.triu_indices(9, 1)
     moved = np.zeros(9)
-    for _ in range(round(15 / sampling_time)):
+    for _ in range(round(12 / sampling_time)):
         before = world.pose
         world.step(rng.uniform(-1, 1, (2, 9)))
-        x, y, _ = world.pose
         moved += np.hypot(*(world.pose - before)[:2])
-        assert np.hypot(x[i] - x[j], y[i] - y[j]).min() > 0.3 - DEEPEST
-        assert max(np.abs(x).max(), np.abs(y).max()) < h - 0.15 + DEEPEST
+        cores = np.array([core(pose, shape) for pose in world.pose.T])
+        assert shapely.contains(inside, cores).all()
+        assert shapely.distance(cores, inside.exterior).min() > reach - half
+        apart = shapely.distance(cores[:, None], cores) + 9 * np.eye(9)
+        assert apart.min() > max(2 * reach - DEEPEST, 0)
     assert moved.min() > 0.3
 
 
-@each_case("seed", range(3))
-def test_stop_with_squares_that_turn_keeps_them_apart(seed):
-    import shapely
-
-    rng = np.random.default_rng(seed)
-    places = [(0.5 * (k % 3 - 1), 0.5 * (k // 3 - 1)) for k in range(9)]
-    robots = [Robot(pose=(x, y, 0), shape=SQUARE) for x, y in places]
-    world = endless(robots, [], sampling_time=0.2, physics="stop")
-    for _ in range(40):
-        command = rng.uniform(-1, 1, (2, 9)) * [[0.5], [4]]
-        world.step(command)
-        squares = [shapely.Polygon(corners(pose)[[0, 1, 3, 2]]) for pose in world.pose.T]
-        for a in range(9):
-            for b in range(a):
-                core = squares[a].buffer(-DEEPEST, join_style="mitre")
-                assert not core.intersects(squares[b])
+def core(pose, shape):
+    """What of a robot overlaps with nothing: its middle, or the square but for half of DEEPEST."""
+    if shape is None:
+        return shapely.Point(pose[:2])
+    square = shapely.Polygon(corners(pose)[[0, 1, 3, 2]])
+    return square.buffer(-DEEPEST / 2, join_style="mitre")

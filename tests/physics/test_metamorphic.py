@@ -269,7 +269,8 @@ def original() -> Callable[[str], np.ndarray]:
 
     def poses(name: str) -> np.ndarray:
         if name not in known:
-            known[name] = run(SCENES[name], Image())
+            known[name] = found = run(SCENES[name], Image())
+            assert np.abs(found[-1] - found[0]).max() > 0.2, "nothing happens"
         return known[name]
 
     return poses
@@ -287,13 +288,6 @@ def test_the_image_of_a_scene_goes_as_the_image_of_its_poses(name, image, origin
 def test_held_commands_give_the_same_poses_for_any_sampling_time(name, sampling_time, original):
     error = np.abs(run(SCENES[name], Image(), sampling_time) - original(name)).max()
     assert error < SCENES[name].split
-
-
-@each_case("name", SCENES)
-def test_scenes_do_something(name, original):
-    poses = original(name)
-    assert np.isfinite(poses).all()
-    assert np.abs(poses[-1] - poses[0]).max() > 0.2
 
 
 # -- sensors --------------------------------------------------------------------------------------

@@ -1,229 +1,183 @@
-"""Rays against closed-form geometry: discs, polygons, walls, ends, corners, bodies on the move."""
+"""Rays and nearest points: pymunk's, of closed forms, and the same bits alone as in a team."""
 
 from __future__ import annotations
 
+from fractions import Fraction
 from math import atan2, cos, inf, pi, sin, sqrt
 
 import numpy as np
+import pymunk
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.bodies.props import Ball, Box
 from mars2d.geometry.shapes import Compound, Disc, Polygon
-from mars2d.sensors import RangeFinder
+from mars2d.physics.space import Space
+from mars2d.sensors import LineCamera, RangeFinder, SonarRing
 from mars2d.sensors.base import NOTHING
 from tests.cases import each_case
+from tests.islands import pymunk_space
 
 EXACT = 1e-9  # m
 
-# -- an implementation of its own: the first point of a ray in the closed form ------------------
+SHAPES = (
+    Disc(0.4),
+    Disc(0.6, center=(0.3, -0.1)),
+    Polygon([(-0.3, -0.2), (0.4, -0.1), (0.2, 0.3), (-0.2, 0.25)]),
+    Polygon([(0, 0), (0.6, 0), (0.6, 0.2), (0.2, 0.2), (0.2, 0.6), (0, 0.6)]),
+    Compound([Disc(0.4, center=(0.1, 0.1)), Polygon([(0, -0.3), (0.5, 0), (0, 0.3)])]),
+)
+
+AT_ORIGIN = np.zeros((3, 1))
 
 
-def sight(world, start, angles, length, ignore):
-    """Return the lengths (k,) of rays from a point at angles (k,), and the bodies that they hit."""
+def some_outline(rng, size):
+    """A wall, a box, a star or a ring, either way round."""
+    kind, angle = rng.integers(4), rng.uniform(0, 2 * pi)
+    if kind == 0:
+        points = [(size, 0), (-size, 0)]
+    elif kind == 1:
+        points = [(size, 0.3), (-size, 0.3), (-size, -0.3), (size, -0.3)]
+    else:
+        radii = np.resize([size, 0.4 * size] if kind == 2 else [size], 8)
+        points = [(r * cos(k * pi / 4), r * sin(k * pi / 4)) for k, r in enumerate(radii)]
+    turn = np.array([[cos(angle), sin(angle)], [-sin(angle), cos(angle)]])
+    placed = np.array(points) @ turn + rng.uniform(-3, 3, 2)
+    return [tuple(map(float, point)) for point in placed][:: rng.choice([-1, 1])]
+
+
+def some_scene(rng):
+    """Bodies, their poses (3, N), and obstacles: anywhere, also one in another."""
+    bodies = [SHAPES[k].pieces for k in rng.integers(len(SHAPES), size=rng.integers(1, 9))]
+    poses = rng.uniform(-3, 3, (3, len(bodies)))
+    return bodies, poses, [some_outline(rng, rng.uniform(0.1, 5)) for _ in range(rng.integers(7))]
+
+
+def fans_of(bodies, poses, outlines):
+    fans = Space(bodies, outlines)
+    fans.place(np.vstack([poses, 0 * poses]).T.copy())
+    return fans
+
+
+def engines_space(bodies, poses, outlines):
+    """The same scene in pymunk, where body i is of the group i + 1."""
+    return pymunk_space(bodies, poses.T, outlines)[0]
+
+
+def assert_engines(space, found, start, angles, reach, ignore):
+    """Rays are as long as pymunk says."""
+    assert len(found) == len(angles)
+    for length, angle in zip(found, angles, strict=True):
+        end = start[0] + reach * cos(angle), start[1] + reach * sin(angle)
+        hit = space.segment_query_first(tuple(start), end, 0.0, pymunk.ShapeFilter(ignore + 1))
+        assert length == (inf if hit is None else pytest.approx(hit.alpha * reach, abs=EXACT))
+
+
+def world_of(outlines=(), robots=(), props=()):
+    """A world with a tiny robot 0 far away, which only lends its index, among other things."""
+    asks = Robot(pose=(90, 90, 0), diameter=1e-3)
+    addons = [Map(list(outlines))]
+    return World(Scenario(robots=[asks, *robots], props=list(props), workspace=None, addons=addons))
+
+
+def sight(world, start, angles):
+    """The lengths (k,) of rays from a point at angles (k,), and the bodies that they hit."""
     pose = np.array([[start[0]], [start[1]], [0.0]])
-    found = world.surroundings.sights(pose, angles, length, [ignore])
+    found = world.surroundings.sights(pose, angles, 100.0, [0])
     return found[0][0], found[1][0]
 
 
-def rays(world, start, angles, length, ignore):
-    return sight(world, start, angles, length, ignore)[0]
+# -- pymunk's -----------------------------------------------------------------------------------
 
 
-def disc(start, way, center, radius):
-    """How far unit vectors `way` (k, 2) go from `start` to a disc; 0 from within."""
-    to = np.subtract(center, start)
-    across = way[:, 0] * to[1] - way[:, 1] * to[0]
-    along = way @ to
-    if np.hypot(*to) <= radius:
-        return np.zeros(len(way))
-    half = np.sqrt(np.maximum(radius**2 - across**2, 0))
-    return np.where((np.abs(across) <= radius) & (along > 0), along - half, inf)
+def test_fans_are_the_engines_rays():
+    rng = np.random.default_rng(0)
+    hits = starts_within = 0
+    for _ in range(150):
+        bodies, poses, _ = scene = some_scene(rng)
+        fans, engine = fans_of(*scene), engines_space(*scene)
+        count, beams = int(rng.integers(1, 8)), int(rng.integers(1, 60))
+        looks = rng.uniform(-4, 4, (3, count))
+        whose = rng.integers(len(bodies), size=count)
+        looks[:2, 0] = poses[:2, whose[0]]  # from within its own body
+        looks[:2, -1] = poses[:2, 0]  # perhaps from within another one
+        bearings = np.linspace(-rng.uniform(0.1, pi), rng.uniform(0.1, pi), beams)
+        if rng.random() < 0.3:
+            bearings = rng.uniform(-9, 9, beams)
+        reach = rng.uniform(0.5, 9)
+        found = fans.distances(looks, bearings, reach, whose)
+        for row, (x, y, theta), own in zip(found, looks.T.tolist(), whose.tolist(), strict=True):
+            angles = (theta + bearings).tolist()
+            assert_engines(engine, row, (x, y), angles, reach, own)
+            alone = [fans.length((x, y), angle, reach, own) for angle in angles]
+            assert alone == pytest.approx(row, abs=1e-12)
+            each = np.vstack([np.tile([[x], [y]], beams), angles])
+            assert alone == fans.distances(each, [0.0], reach, [own] * beams)[:, 0].tolist()
+            hits += np.isfinite(row).sum()
+            starts_within += (row == 0).all()
+    assert hits > 5000
+    assert starts_within > 20
 
 
-def segment(start, way, a, b):
-    """How far they go to a segment, which is met from either side, but not by what runs along."""
-    to, edge = np.subtract(a, start), np.subtract(b, a)
-    turn = way[:, 0] * edge[1] - way[:, 1] * edge[0]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        along = (to[0] * edge[1] - to[1] * edge[0]) / turn
-        share = (to[0] * way[:, 1] - to[1] * way[:, 0]) / turn
-    return np.where((turn != 0) & (along >= 0) & (share >= 0) & (share <= 1), along, inf)
+def test_what_stands_before_a_point_and_what_is_nearest_to_it_is_the_engines():
+    rng = np.random.default_rng(7)
+    count = within = hidden = 0
+    for _ in range(100):
+        bodies, poses, _ = scene = some_scene(rng)
+        space, engine = fans_of(*scene), engines_space(*scene)
+        for point in [*rng.uniform(-4, 4, (5, 2)).tolist(), *(poses[:2].T + 0.01).tolist()]:
+            own, limit = int(rng.integers(-1, len(bodies))), rng.uniform(0.1, 6)
+            others = pymunk.ShapeFilter(own + 1)
+            wanted = engine.point_query(tuple(point), limit, others)
+            found = list(space.nearby(point, limit, own))
+            assert sorted(found) == [
+                pytest.approx(each, abs=EXACT) for each in sorted(info.point for info in wanted)
+            ]
+            nearest = min((info.distance for info in wanted), default=inf)
+            assert space.distance(point, limit, own) == pytest.approx(nearest, abs=EXACT)
+            count, within = count + len(found), within + (nearest < 0)
+            ends = rng.uniform(-4, 4, (9, 2))
+            met = [engine.segment_query_first(tuple(point), tuple(end), 0, others) for end in ends]
+            behind = space.hidden(point, ends, NOTHING, own)
+            assert behind.tolist() == [hit is not None for hit in met]
+            hidden += behind.sum()
+    assert count > 2000
+    assert within > 100
+    assert 0 < hidden < 9 * count
 
 
-def ring(start, way, points):
-    """How far they go to the edges of a closed outline, from outside or inside."""
-    edges = zip(points, np.roll(points, -1, axis=0), strict=True)
-    return np.min([segment(start, way, a, b) for a, b in edges], axis=0)
-
-
-def solid(start, way, points):
-    """How far they go to a filled polygon; 0 from within."""
-    odd = False
-    for (ax, ay), (bx, by) in zip(points, np.roll(points, -1, axis=0), strict=True):
-        if (ay > start[1]) != (by > start[1]):
-            odd ^= start[0] < ax + (start[1] - ay) * (bx - ax) / (by - ay)
-    return np.zeros(len(way)) if odd else ring(start, way, points)
-
-
-def placed(points, pose):
-    x, y, theta = pose
-    turn = np.array([[cos(theta), sin(theta)], [-sin(theta), cos(theta)]])
-    return np.asarray(points, dtype=float) @ turn + (x, y)
-
-
-def body(start, way, shape, pose):
-    """How far they go to a disc, polygon or compound at a pose."""
-    if isinstance(shape, Disc):
-        return disc(start, way, placed([shape.center], pose)[0], shape.radius)
-    if isinstance(shape, Polygon):
-        return solid(start, way, placed(shape.outline, pose))
-    return np.min([body(start, way, part, pose) for part in shape.parts], axis=0)
-
-
-def outline(start, way, points):
-    """How far they go to an obstacle: a wall of two vertices, or a polygon's edges."""
-    return segment(start, way, *points) if len(points) == 2 else ring(start, way, np.array(points))
-
-
-def chassis(robot):
-    """The shape of a robot about its centre of rotation."""
-    shape = robot.shape or Disc(robot.diameter)
-    return shape.moved(-robot.center_offset, 0)
-
-
-def expected(world, start, angles, reach, ignore):
-    """How far rays go in a world, in the closed form."""
-    way = np.column_stack([np.cos(angles), np.sin(angles)])
-    bodies = [chassis(robot) for robot in world.scenario.robots]
-    bodies += [prop.shape for prop in world.scenario.props]
-    poses = np.hstack([world.pose, world.prop_pose]).T
-    found = [
-        body(start, way, shape, pose)
-        for i, (shape, pose) in enumerate(zip(bodies, poses, strict=True))
-        if i != ignore
+@each_case("physics", ["contact", "stop"])
+def test_rays_meet_bodies_where_they_are_at_that_instant(physics):
+    rng = np.random.default_rng(7)
+    cells = [(k % 4 - 1.5, k // 4 - 1.5) for k in range(16)]
+    robots = [
+        Robot(pose=(*cells[k], rng.uniform(-3, 3)), shape=SHAPES[k % 5], center_offset=0.05)
+        for k in range(12)
     ]
-    found += [outline(start, way, points) for points in world.obstacles]
-    nearest = np.min([np.full(len(way), inf), *found], axis=0)
-    return np.where(nearest <= reach, nearest, inf)
+    props = [
+        Ball(pose=(*cells[12], 0), diameter=0.3),
+        Box(pose=(*cells[13], 0.5), length=0.4, width=0.3, velocity=(0.3, 0.2, 1.0)),
+    ]
+    scenario = Scenario(
+        robots=robots, props=props, physics=physics, on_exit="wall", max_overlap=0.02,
+        workspace=[(-2.2, -2.2), (2.2, -2.2), (2.2, 2.2), (-2.2, 2.2)],
+    )  # fmt: skip
+    world = World(scenario, seed=1)
+    bodies = [body.shape.pieces for body in scenario.bodies]
+    touched = 0
+    for _ in range(30):
+        world.step(np.vstack([rng.uniform(-1, 1, 12), rng.uniform(-4, 4, 12)]))
+        touched += len(world.contacts)
+        engine = engines_space(bodies, np.hstack([world.pose, world.prop_pose]), world.obstacles)
+        angles = rng.uniform(-pi, pi, 30)
+        for own, look in ((99, rng.uniform(-1.5, 1.5, (3, 1))), (3, world.pose[:, 3:4])):
+            found = world.surroundings.sights(look * [[1], [1], [0]], angles, 6.0, [own])[0][0]
+            assert_engines(engine, found, look[:2, 0], angles, 6.0, own)
+    assert touched > 0
 
 
-def doubtful(world, start, angles, reach):
-    """Which rays pass so near to an edge or corner that rounding decides what they meet."""
-    way = np.column_stack([np.cos(angles), np.sin(angles)])
-    points, radii = [], []
-    shapes = [(chassis(r), p) for r, p in zip(world.scenario.robots, world.pose.T, strict=True)]
-    shapes += [(b.shape, p) for b, p in zip(world.scenario.props, world.prop_pose.T, strict=True)]
-    while shapes:
-        shape, pose = shapes.pop()
-        if isinstance(shape, Compound):
-            shapes += [(part, pose) for part in shape.parts]
-            continue
-        round_ = isinstance(shape, Disc)
-        corners = placed([shape.center] if round_ else shape.outline, pose)
-        points += corners.tolist()
-        radii += [shape.radius if round_ else 0.0] * len(corners)
-    for wall in world.obstacles:
-        points += list(wall)
-        radii += [0.0] * len(wall)
-    to = np.array(points) - start
-    across = np.abs(np.outer(way[:, 0], to[:, 1]) - np.outer(way[:, 1], to[:, 0]))
-    return (np.abs(across - radii) < EXACT).any(axis=1)
-
-
-def assert_exact(world, start, angles, reach=6.0, ignore=0):
-    """Rays are what the closed form says, but for those that rounding decides."""
-    found = rays(world, tuple(start), angles, reach, ignore)
-    wanted = expected(world, start, angles, reach, ignore)
-    sure = ~doubtful(world, start, angles, reach)
-    sure &= ~(np.abs(wanted - reach) < EXACT)
-    assert sure.mean() > 0.9
-    assert np.array_equal(np.isfinite(found[sure]), np.isfinite(wanted[sure]))
-    hit = sure & np.isfinite(wanted)
-    assert np.abs(found[hit] - wanted[hit]).max(initial=0) < EXACT
-    return found
-
-
-def world_of(outlines=(), robots=(), props=(), **fields):
-    """A world with a tiny robot 0 far away, which only lends its index, among other things."""
-    asks = Robot(pose=(90, 90, 0), diameter=1e-3)
-    fields = {"workspace": None, "addons": [Map(list(outlines))]} | fields
-    return World(Scenario(robots=[asks, *robots], props=list(props), **fields))
-
-
-def star(rng, spikes, inner, outer):
-    """A polygon round the origin, convex if both radii are equal."""
-    radii = np.resize([outer, inner], spikes)
-    angles = (np.arange(spikes) + rng.uniform(-0.2, 0.2, spikes)) * 2 * pi / spikes
-    return np.column_stack([radii * np.cos(angles), radii * np.sin(angles)]).tolist()
-
-
-def some_shape(rng, kind):
-    if kind == "disc":
-        return Disc(rng.uniform(0.3, 1.2))
-    if kind == "convex":
-        return Polygon(star(rng, int(rng.integers(3, 8)), 0.7, 0.7))
-    if kind == "concave":
-        return Polygon(star(rng, 2 * int(rng.integers(3, 6)), 0.3, 0.7))
-    square = Polygon([(0, -0.2), (0.6, -0.2), (0.6, 0.25), (0, 0.25)])
-    return Compound([square, Disc(0.5, center=(-0.2, 0.1)), Polygon(star(rng, 6, 0.2, 0.5))])
-
-
-def some_obstacle(rng, kind, center):
-    angle, half = rng.uniform(0, pi), rng.uniform(0.2, 0.8)
-    ahead = np.array([cos(angle), sin(angle)])
-    left = np.array([-ahead[1], ahead[0]])
-    if kind == "wall":
-        points = [half * ahead, -half * ahead]
-    elif kind == "thick wall":
-        thick = rng.uniform(0.005, 0.15)
-        points = [
-            a * half * ahead + b * thick * left for a, b in [(1, 1), (-1, 1), (-1, -1), (1, -1)]
-        ]
-    else:
-        points = star(rng, 8, 0.35, 0.8)
-    return [tuple(map(float, np.add(point, center))) for point in points]
-
-
-BODIES = ("disc", "convex", "concave", "compound")
-OBSTACLES = ("wall", "thick wall", "room")
-
-
-@pytest.mark.slow
-@given(
-    kinds=st.lists(st.sampled_from(["nothing", *BODIES, *OBSTACLES]), min_size=9, max_size=9),
-    seed=st.integers(0, 2**32 - 1),
-)
-@settings(max_examples=15)
-def test_rays_are_those_of_closed_form_geometry(kinds, seed):
-    rng = np.random.default_rng(seed)
-    cells = [(2.0 * (k % 3 - 1), 2.0 * (k // 3 - 1)) for k in range(9)]
-    robots, outlines = [], []
-    for kind, center in zip(kinds, cells, strict=True):
-        if kind in BODIES:
-            shape, offset = some_shape(rng, kind), rng.choice([0.0, 0.1])
-            robots.append(
-                Robot(pose=(*center, rng.uniform(-9, 9)), shape=shape, center_offset=offset)
-            )
-        elif kind in OBSTACLES:
-            outlines.append(some_obstacle(rng, kind, center))
-    world = world_of(outlines, robots)
-    for start in rng.uniform(-3, 3, (8, 2)):
-        assert_exact(world, start, rng.uniform(-10, 10, 60), rng.uniform(0.5, 6))
-    for i in range(1, len(robots) + 1):  # from where they are themselves
-        assert_exact(world, world.pose[:2, i], rng.uniform(-10, 10, 60), 5.0, ignore=i)
-
-
-# -- single cases ------------------------------------------------------------------------------
-
-
-def test_a_ray_is_as_long_as_it_is_to_the_nearest_thing_in_its_way():
-    world = world_of([[(3, -1), (3, 1)]], [Robot(pose=(2, 0, 0), diameter=0.5)])
-    found = rays(world, (0, 0), np.array([0.0, pi, 0.3]), 5.0, 0)
-    assert found.tolist() == [1.75, inf, pytest.approx(3 / cos(0.3), abs=EXACT)]
+# -- closed forms -------------------------------------------------------------------------------
 
 
 @each_case("angle", [0.0, 0.3, 1.0, pi / 2, 2.5])
@@ -233,10 +187,10 @@ def test_a_ray_exactly_along_a_wall_meets_its_end(angle, far):
     left = np.array([-ahead[1], ahead[0]])
     start = np.array([0.4, -0.7])
     near, end = start + far * ahead, start + (far + 2) * ahead
-    world = world_of([[tuple(near), tuple(end)]])
+    wall = Space([], [[tuple(near.tolist()), tuple(end.tolist())]])
 
     def seen(point, heading):
-        return rays(world, tuple(point), np.array([heading]), 100.0, 0)[0]
+        return wall.length(tuple(point), heading, 100.0, -1)
 
     assert seen(start, angle) == pytest.approx(far, abs=EXACT)
     assert seen(end + 3 * ahead, angle + pi) == pytest.approx(3, abs=EXACT)
@@ -245,59 +199,68 @@ def test_a_ray_exactly_along_a_wall_meets_its_end(angle, far):
         assert seen(start + side * left, angle) == inf
 
 
-@each_case("thickness", [1e-3, 0.1, 1.0])
-def test_a_thick_walls_end_is_met_by_rays_from_within_its_thickness(thickness):
-    r = thickness / 2
-    wall = [(0, -r), (4, -r), (4, r), (0, r)]
-    world = world_of([wall])
-    for y in np.linspace(-0.999, 0.999, 7) * r:
-        for gap in (1e-6, 1e-3, r / 2, 3.0):
-            found = rays(world, (-gap, y), np.array([0.0, pi]), 6.0, 0)
-            assert found[0] == pytest.approx(gap, abs=EXACT)
-            assert found[1] == inf
-            assert_exact(world, (-gap, y), np.linspace(-1.5, 1.5, 40))
-            assert_exact(world, (4 + gap, y), pi + np.linspace(-1.5, 1.5, 40))
-
-
 @each_case("radius", [1e-3, 0.15, 4.0])
 @each_case("far", [0.5, 30.0])
 def test_a_ray_that_grazes_a_disc_meets_it_and_one_beside_it_does_not(radius, far):
     distance = radius + far
-    world = world_of(robots=[Robot(pose=(0, 0, 0), diameter=2 * radius)])
+    fans = fans_of([[([(0.0, 0.0)], radius)]], AT_ORIGIN, [])
     for bearing in (0.0, 0.7, 3.0):
         start = (-distance * cos(bearing), -distance * sin(bearing))
-        tangent = sqrt(distance**2 - radius**2)
         for side in (-1, 1):
-            edge = side * atan2(radius, tangent)
-            angles = bearing + edge + np.array([-1e-6, 1e-6]) * side
-            inner, outer = rays(world, start, angles, 100.0, 0)
+            edge = side * atan2(radius, sqrt(distance**2 - radius**2))
+            inner, outer = (
+                fans.length(start, bearing + edge + side * by, 100.0, -1) for by in (-1e-6, 1e-6)
+            )
             assert outer == inf
             across = distance * sin(abs(edge) - 1e-6)
             wanted = distance * cos(abs(edge) - 1e-6) - sqrt(radius**2 - across**2)
             assert inner == pytest.approx(wanted, abs=EXACT)
 
 
-@each_case("kind", BODIES)
-def test_a_ray_that_starts_inside_another_robot_goes_no_way_at_all(kind):
+def test_a_ray_that_grazes_an_edge_is_as_long_as_exact_arithmetic_says():
     rng = np.random.default_rng(3)
-    world = world_of(robots=[Robot(pose=(1, 2, 0.5), shape=some_shape(rng, kind))])
-    x, y = placed([(0.01, 0.02)], (1, 2, 0.5))[0]
-    angles = np.linspace(-pi, pi, 30)
-    assert rays(world, (x, y), angles, 5.0, 0).tolist() == [0.0] * 30
-    distances, bodies = sight(world, (x, y), angles, 5.0, 0)
-    assert distances.tolist() == [0.0] * 30
-    assert bodies.tolist() == [1] * 30
+    looked_at = 0
+    for steep in (1e-1, 1e-2, 1e-3, 1e-4, 3e-5):
+        for _ in range(100):
+            x, y, along = rng.uniform(-5, 5, 3)
+            ahead = np.array([cos(along), sin(along)])
+            a = (x, y) + rng.uniform(0.1, 1) * ahead + rng.uniform(0, steep) * ahead[::-1] * (-1, 1)
+            b = a + rng.uniform(0.5, 30) * ahead + steep * ahead[::-1] * (1, -1)
+            ends = [tuple(map(float, a)), tuple(map(float, b))]
+            target = a + rng.uniform(0.01, 0.99) * (b - a)
+            bearing = float(np.arctan2(target[1] - y, target[0] - x))
+            found = Space([], [ends]).distances(np.array([[x], [y], [0.0]]), [bearing], 99.0, [-1])
+            c, s = Fraction(float(np.cos(bearing))), Fraction(float(np.sin(bearing)))
+            ax, ay = (
+                Fraction(p) - Fraction(float(q)) for p, q in zip(ends[0], (x, y), strict=True)
+            )
+            ex, ey = (Fraction(q) - Fraction(p) for p, q in zip(*ends, strict=True))
+            turn = c * ey - s * ex
+            if abs(turn) < 3e-6 * np.hypot(*(b - a)):  # where 1e-16 m aside are 1e-10 m ahead
+                continue
+            assert abs(Fraction(float(found[0, 0])) - (ax * ey - ay * ex) / turn) < EXACT
+            looked_at += 1
+    assert looked_at > 400
 
 
-def test_what_a_ray_hits_is_named():
-    world = world_of(
-        [[(0, 3), (1, 3)], [(-3, -1), (-3, 1)]],
-        [Robot(pose=(2, 0, 0))],
-        [Box(pose=(0, -2, 0), length=0.5, width=0.5)],
-    )
-    angles = np.array([0.0, 1.5, pi, -pi / 2, 0.7])
-    _, bodies = sight(world, (0, 0), angles, 5.0, 0)
-    assert bodies.tolist() == [1, -1, -2, 2, NOTHING]
+def test_a_ray_along_the_long_side_of_a_box_that_just_touches_it_goes_to_its_corner():
+    box = [(1.0, 0.0), (4.0, 0.0), (4.0, 1.0), (1.0, 1.0)]
+    for turn in (1, -1):
+        fans = Space([], [box[::turn]])
+        looks = np.array([[0.0, 6, 2, 2, 4], [0.0, 1, 0, 0.5, 1], [0.0, pi, 0, 0, 0]])
+        found = fans.distances(looks, [0.0, pi], 9.0, [-1] * 5)
+        assert found[0].tolist() == [1.0, inf]
+        assert found[1] == pytest.approx([2.0, inf])
+        assert found[2].tolist() == [0.0, 0.0]  # from a point of the outline itself
+        assert found[3].tolist() == [2.0, 1.0]  # from within
+        assert found[4].tolist() == [0.0, 0.0]  # from a corner
+
+
+def test_there_may_be_nothing_to_see_and_no_ray_to_see_it():
+    look = np.zeros((3, 2))
+    assert Space([], []).distances(look, [0.0, 1.0], 5.0, [-1, -1]).tolist() == [[inf] * 2] * 2
+    assert Space([], [[(1, -1), (1, 1)]]).distances(look, [], 5.0, [-1, -1]).shape == (2, 0)
+    assert Space([], [[(1, -1), (1, 1)]]).distances(look[:, :0], [0.0], 5.0, []).shape == (0, 1)
 
 
 # -- corners ------------------------------------------------------------------------------------
@@ -306,135 +269,111 @@ ROOMS = {
     "square": ([(0, 0), (10, 0), (10, 10), (0, 10)], (3.0, 4.0)),
     "turned": ([(1.1, 0.3), (7.7, 1.9), (9.3, 8.1), (0.7, 6.3)], (4.0, 4.0)),
     "concave": ([(0, 0), (6, 0), (6, 2), (3.1, 2.7), (6, 4.4), (6, 6), (0, 6)], (1.5, 3.0)),
-    "star": (star(np.random.default_rng(1), 10, 1.2, 3.0), (0.0, 0.0)),
+    "far": (
+        [(1e5 + x, 1e5 + y) for x, y in [(0, 0), (9.1, 0.3), (4.0, 3.0), (0.2, 8)]],
+        (1e5 + 2,) * 2,
+    ),
 }
 
 
+def beside(corner, start):
+    """Three angles: straight at a corner, as rounded, and the next ones on both sides."""
+    aimed = atan2(corner[1] - start[1], corner[0] - start[0])
+    return [aimed, float(np.nextafter(aimed, 9)), float(np.nextafter(aimed, -9))]
+
+
 @each_case("name", ROOMS)
-@each_case("built", ["one outline", "walls that meet", "workspace"])
+@each_case("built", ["one outline", "walls that meet"])
 def test_no_ray_leaves_a_closed_room(name, built):
     corners, middle = ROOMS[name]
-    corners = [(float(x), float(y)) for x, y in corners]
     walls = [list(ends) for ends in zip(corners, [*corners[1:], corners[0]], strict=True)]
-    if built == "workspace":
-        robot = Robot(pose=(*middle, 0), diameter=1e-3)
-        world = World(Scenario(robots=[robot], workspace=corners, on_exit="wall"))
-    else:
-        world = world_of([corners] if built == "one outline" else walls)
+    room = Space([], [corners] if built == "one outline" else walls)
     rng = np.random.default_rng(0)
-    count = escaped = 0
-    while count < 10_000:
-        start = np.add(middle, rng.uniform(-0.5, 0.5, 2))
-        aimed = np.array([atan2(y - start[1], x - start[0]) for x, y in corners])
-        angles = [aimed, np.nextafter(aimed, 9), np.nextafter(aimed, -9), rng.uniform(-4, 4, 100)]
-        found = rays(world, tuple(start), np.concatenate(angles), 40.0, 0)
-        count += len(found)
-        escaped += np.isinf(found).sum()
-    assert escaped == 0
+    for start in np.add(middle, rng.uniform(-0.5, 0.5, (90, 2))):
+        angles = [*rng.uniform(-4, 4, 100), *(a for c in corners for a in beside(c, start))]
+        look = np.array([[start[0]], [start[1]], [0.0]])
+        assert np.isfinite(room.distances(look, angles, 40.0, [-1])).all()
 
 
 def test_a_ray_aimed_exactly_at_a_bodys_corner_meets_it():
-    shape = Polygon([(-0.3, -0.2), (0.4, -0.1), (0.2, 0.3), (-0.2, 0.25)])
+    kite = Polygon([(-0.3, -0.2), (0.4, -0.1), (0.2, 0.3), (-0.2, 0.25)])
     rng = np.random.default_rng(4)
     for _ in range(5):
-        pose = (*rng.uniform(-1, 1, 2), rng.uniform(-9, 9))
-        world = world_of(robots=[Robot(pose=pose, shape=shape)])
-        corners = placed(shape.outline, pose)
-        middle = corners.mean(axis=0)
+        x, y, theta = pose = (*rng.uniform(-1, 1, 2), rng.uniform(-9, 9))
+        world = world_of(robots=[Robot(pose=pose, shape=kite)])
+        turn = np.array([[cos(theta), sin(theta)], [-sin(theta), cos(theta)]])
+        corners = np.array(kite.outline) @ turn + (x, y)
         for corner in np.repeat(corners, 10, axis=0):
-            out = corner - middle
+            out = corner - corners.mean(axis=0)
             start = corner + rng.uniform(0.5, 3) * out + rng.uniform(-0.1, 0.1, 2)
-            aimed = atan2(corner[1] - start[1], corner[0] - start[0])
-            angles = np.array([aimed, np.nextafter(aimed, 9), np.nextafter(aimed, -9)])
-            found, bodies = sight(world, tuple(start), angles, 9.0, 0)
+            found, bodies = sight(world, start, beside(corner, start))
             assert found == pytest.approx(np.hypot(*(corner - start)), abs=EXACT)
             assert bodies.tolist() == [1, 1, 1]
 
 
 @each_case("eighth", range(8))
 def test_a_ray_straight_at_the_corner_of_a_box_meets_it(eighth):
-    angle = eighth * pi / 4
+    angle, turned = eighth * pi / 4, 0.0 if eighth % 2 else pi / 4
     for far in np.arange(0.75, 6, 0.75):
-        for size in (0.2, 0.3, 0.5):
-            turned = 0.0 if eighth % 2 else pi / 4
-            box = Box(pose=(far * cos(angle), far * sin(angle), turned), length=size, width=size)
-            world = world_of(props=[box])
-            found = rays(world, (0.0, 0.0), np.array([angle]), 9.0, 0)
-            assert found.tolist() == [pytest.approx(far - size / sqrt(2), abs=EXACT)]
-            behind = np.array([[8 * cos(angle), 8 * sin(angle)]])
-            assert world.surroundings.hidden((0.0, 0.0), behind, NOTHING, 0).all()
+        for half in (0.1, 0.15, 0.25):
+            box = [(-half, -half), (half, -half), (half, half), (-half, half)]
+            pose = np.array([[far * cos(angle)], [far * sin(angle)], [turned]])
+            space = fans_of([[(box, 0.0)]], pose, [])
+            found = space.distances(AT_ORIGIN, [angle], 9.0, [-1])
+            assert found == pytest.approx(far - half * sqrt(2), abs=EXACT)
+            assert space.hidden((0.0, 0.0), [[8 * cos(angle), 8 * sin(angle)]], NOTHING, -1).all()
 
 
-# -- a robot's own body -------------------------------------------------------------------------
+# -- who is seen --------------------------------------------------------------------------------
 
 
-@each_case("kind", BODIES)
-@each_case("offset", [0.0, 0.1])
-@each_case("mount", [(0, 0, 0), (0.3, -0.4, 2.0)])
-def test_a_robot_never_sees_itself(kind, offset, mount):
-    shape = some_shape(np.random.default_rng(2), kind)
-    robot = Robot(
-        pose=(1, 1, 0.4), shape=shape, center_offset=offset,
-        sensors=[RangeFinder(beams=720, mount=mount)],
-    )  # fmt: skip
-    world = World(Scenario(robots=[robot]))
-    world.observe()
-    assert np.isinf(world.robots[0].sense.range_finder).all()
-    both = World(Scenario(robots=[robot, Robot(pose=(4, 1, 0.4), diameter=0.2)]))
-    both.observe()
-    assert np.isfinite(both.robots[0].sense.range_finder).any()  # but it does see the other
+def test_what_a_ray_hits_is_named():
+    world = world_of(
+        [[(0, 3), (1, 3)], [(-3, -1), (-3, 1)]],
+        [Robot(pose=(2, 0, 0))],
+        [Box(pose=(0, -2, 0), length=0.5, width=0.5)],
+    )
+    _, bodies = sight(world, (0, 0), np.array([0.0, 1.5, pi, -pi / 2, 0.7]))
+    assert bodies.tolist() == [1, -1, -2, 2, NOTHING]
 
 
-# -- bodies that have moved ---------------------------------------------------------------------
-
-
-@each_case("physics", ["contact", "stop"])
-def test_rays_meet_bodies_where_they_are_at_that_instant(physics):
-    rng = np.random.default_rng(7)
-    cells = [(0.75 * (k % 4) - 1.1, 0.75 * (k // 4) - 1.1) for k in range(16)]
-    wedge = Polygon([(-0.25, -0.2), (0.35, 0), (-0.25, 0.2)])
-    nose = Polygon([(0, -0.1), (0.3, -0.1), (0.3, 0.1), (0, 0.1)])
-    shapes = [Disc(0.4), wedge, Compound([Disc(0.3), nose])]
-    robots = [
-        Robot(pose=(*cells[k], rng.uniform(-3, 3)), shape=shapes[k % 3], center_offset=0.05)
-        for k in range(12)
-    ]
-    props = [
-        Ball(pose=(*cells[12], 0), diameter=0.3),
-        Box(pose=(*cells[13], 0.5), length=0.4, width=0.3, velocity=(0.3, 0.2, 1.0)),
-        Box(pose=(*cells[14], 1), length=0.3, width=0.5),
-    ]
-    scenario = Scenario(
-        robots=robots, props=props, physics=physics, on_exit="wall",
-        workspace=[(-1.6, -1.6), (1.6, -1.6), (1.6, 1.6), (-1.6, 1.6)],
-    )  # fmt: skip
-    world = World(scenario, seed=1)
-    touched = 0
+def test_a_ray_hits_the_body_that_alone_is_as_far():
+    rng = np.random.default_rng(1)
     for _ in range(30):
-        world.step(np.vstack([rng.uniform(-1, 1, 12), rng.uniform(-4, 4, 12)]))
-        touched += len(world.contacts)
-        assert_exact(world, rng.uniform(-1.5, 1.5, 2), rng.uniform(-pi, pi, 30), 6.0, ignore=99)
-        assert_exact(world, world.pose[:2, 3], rng.uniform(-pi, pi, 30), 6.0, ignore=3)
-    assert touched > 0
+        bodies, poses, outlines = scene = some_scene(rng)
+        fans = fans_of(*scene)
+        look, bearings = rng.uniform(-4, 4, (3, 1)), np.linspace(-pi, pi, 50)
+        distances, hit = fans.sight(look, bearings, 6.0, [-1], NOTHING)
+        assert np.array_equal(distances, fans.distances(look, bearings, 6.0, [-1]))
+        assert np.array_equal(hit == NOTHING, np.isinf(distances))
+        for number in np.unique(hit[hit != NOTHING]).tolist():
+            if number < 0:
+                alone = Space([], [outlines[-1 - number]])
+            else:
+                alone = fans_of([bodies[number]], poses[:, number : number + 1], [])
+            mine = alone.distances(look, bearings, 6.0, [-1])
+            assert (mine[hit == number] == distances[hit == number]).all()
+            assert (mine >= distances).all()
 
 
-# -- what stands between, and the public way ----------------------------------------------------
+def test_of_bodies_equally_far_the_lowest_number_is_hit():
+    disc = [([(0.0, 0.0)], 0.5)]
+    fans = fans_of([disc, disc, disc], np.array([[2.0] * 3, [0.0] * 3, [0.0] * 3]), [])
+    assert fans.sight(AT_ORIGIN, [0.0], 5.0, [-1], NOTHING)[1].tolist() == [[0]]
+    assert fans.sight(AT_ORIGIN, [0.0], 5.0, [0], NOTHING)[1].tolist() == [[1]]
+    walls = Space([], [[(2, -1), (2, 1)], [(2, -1), (2, 1)]])
+    assert walls.sight(AT_ORIGIN, [0.0], 5.0, [-1], NOTHING)[1].tolist() == [[-2]]
 
 
-@given(seed=st.integers(0, 2**32 - 1))
-@settings(max_examples=15)
-def test_what_is_hidden_has_something_before_it(seed):
-    rng = np.random.default_rng(seed)
-    outlines = [some_obstacle(rng, kind, center) for kind, center in
-                zip(OBSTACLES, [(-2, 0), (2, 0), (0, 2)], strict=True)]  # fmt: skip
-    world = world_of(outlines, [Robot(pose=(0, -1, 0), diameter=0.6)])
-    start, points = rng.uniform(-3, 3, 2), rng.uniform(-3, 3, (40, 2))
-    found = world.surroundings.hidden(tuple(start), points, NOTHING, 0)
-    angles = np.array([atan2(y - start[1], x - start[0]) for x, y in points])
-    apart = np.hypot(*(points - start).T)
-    free = np.array([expected(world, start, angles[k : k + 1], apart[k], 0)[0] for k in range(40)])
-    sure = ~doubtful(world, start, angles, 9.0)
-    assert np.array_equal(found[sure], np.isfinite(free[sure]))
+@each_case("shape", SHAPES)
+@each_case("mount", [(0, 0, 0), (0.3, -0.4, 2.0)])
+def test_a_robot_never_sees_itself_but_others(shape, mount):
+    looks = [RangeFinder(beams=720, mount=mount)]
+    robot = Robot(pose=(1, 1, 0.4), shape=shape, center_offset=0.1, sensors=looks)
+    for others in ([], [Robot(pose=(4, 1, 0.4), diameter=0.2)]):
+        world = World(Scenario(robots=[robot, *others], workspace=None))
+        world.observe()
+        assert np.isfinite(world.robots[0].sense.range_finder).any() == bool(others)
 
 
 def test_a_robot_does_not_hide_its_own_centre():
@@ -442,3 +381,68 @@ def test_a_robot_does_not_hide_its_own_centre():
     centres = np.array([(2.0, 0.0), (4.0, 0.0)])
     assert world.surroundings.hidden((0, 0), centres, [1, 2], 0).tolist() == [False, True]
     assert world.surroundings.hidden((0, 0), centres, NOTHING, 0).tolist() == [True, True]
+
+
+# -- a fan alone is as one in a team ------------------------------------------------------------
+
+
+@each_case("bearings", [np.linspace(-pi, pi, 180, endpoint=False), [0.3], [2, 1, 1]])
+def test_a_fan_reads_the_same_bits_alone_and_in_any_order(bearings):
+    rng = np.random.default_rng(5)
+    for _ in range(30):
+        bodies, poses, outlines = some_scene(rng)
+        looks = rng.uniform(-4, 4, (3, 9)) * [[1], [1], [10]]
+        fans, whose = fans_of(bodies, poses, outlines), rng.integers(-1, len(bodies), 9)
+        distances, hit = fans.sight(looks, bearings, 5.0, whose, NOTHING)
+        for some in (rng.permutation(9), *np.arange(9)[:, None]):
+            again = fans.sight(looks[:, some], bearings, 5.0, whose[some], NOTHING)
+            assert np.array_equal(again[0], distances[some])
+            assert np.array_equal(again[1], hit[some])
+
+
+def test_a_fan_reads_the_same_bits_in_a_big_team():
+    rng = np.random.default_rng(7)
+    outlines = [
+        [(x, y), (x + 0.4, y), (x + 0.3, y + 0.3)] for x, y in rng.uniform(-30, 30, (400, 2))
+    ]
+    discs = [[([(0.0, 0.0)], 0.15)]] * 400
+    looks = rng.uniform(-30, 30, (3, 400))
+    fans = fans_of(discs, looks, outlines)
+    everybody = np.arange(400)
+    together = fans.distances(looks, np.linspace(-1, 1, 40), 5.0, everybody)
+    for i in range(0, 400, 40):
+        few = slice(i, i + 40)
+        some = fans.distances(looks[:, few], np.linspace(-1, 1, 40), 5.0, everybody[few])
+        assert np.array_equal(some, together[few])
+    assert np.isfinite(together).mean() > 0.3
+
+
+@each_case(
+    "sensor",
+    [
+        RangeFinder(beams=90, range=3.0),
+        RangeFinder(beams=31, field_of_view=2.0, mount=(0.1, 0.05, 0.3)),
+        LineCamera(pixels=40, mount=(0.1, 0, 0)),
+        SonarRing(),
+    ],
+)
+def test_a_sensor_reads_the_same_bits_by_itself_and_with_its_team(sensor):
+    rng = np.random.default_rng(8)
+    robots = [
+        Robot(pose=(1.2 * (k % 4), 1.2 * (k // 4), rng.uniform(-9, 9)), sensors=[sensor])
+        for k in range(10)
+    ]
+    outlines = [[(0.6, -2), (0.6, 5)], [(5, 0), (6, 0.5), (5, 1)]]
+    world = World(
+        Scenario(
+            robots=robots, props=[Box(pose=(2, 4, 0.3))], workspace=None, addons=[Map(outlines)]
+        )
+    )
+    for _ in range(5):
+        world.step(np.vstack([np.full(10, 0.3), rng.uniform(-1, 1, 10)]))
+    world.observe()
+    column = [getattr(robot.sense, sensor.key) for robot in world.robots]
+    for robot, reading in zip(world.robots, column, strict=True):
+        single = sensor.read(robot, world.surroundings, robot.rng)
+        assert np.array_equal(single, reading, equal_nan=True)
+    assert len({reading.tobytes() for reading in column}) > 7

@@ -72,13 +72,6 @@ def test_there_is_a_bit_of_everything_in_the_bustle(record):
 # -- in this process ------------------------------------------------------------------------------
 
 
-def test_a_world_that_is_stepped_by_hand(digest):
-    world = bustle()
-    while not world.over:
-        world.step()
-    assert world.record.digest == digest
-
-
 def test_a_world_that_is_looked_at_all_the_time_beside_another_one(digest):
     world, other = bustle(), bustle(seed=4)
     while not world.over:

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from math import atan, cos, hypot, pi, radians, sin, sqrt, tan
+from math import atan, cos, hypot, pi, sin, sqrt, tan
 
 import numpy as np
 import pytest
 
-from mars2d import Holonomic, MaterialPair, Record, Robot, Scenario, Unicycle, World
+from mars2d import MaterialPair, Record, Robot, Scenario, Unicycle, World
 from mars2d.addons import Map
 from mars2d.bodies import Ball, Box, Rope, Spring
 from mars2d.core.materials import GRAVITY, MATERIALS, RULES
-from mars2d.physics import translation
 from mars2d.scenario.experiment import open_experiment
 from mars2d.world.loop import simulate
 from tests.cases import each_case
-from tests.islands import plainly
+from tests.islands import mover_of
+from tests.worlds import endless
 
 BY_RULE = {
     "product": lambda p, q: p * q,
@@ -70,32 +70,34 @@ def test_a_robot_slides_along_a_wall_up_to_the_friction_of_each_rule(rule, share
     assert speed_along(record) == pytest.approx(slides, abs=1e-3 * 0.23)
 
 
-@each_case("rule", RULES)
-def test_a_pair_has_its_own_friction_whatever_the_rule(rule):
-    pairs = [MaterialPair("rubber", "ice", friction=0.11)]
-    record = at_wall(
-        0.8, {"friction": "rubber"}, {"friction": "ice"}, friction_rule=rule, material_pairs=pairs
-    )
-    contact = record.contacts[-1]
-    assert abs(contact["tangential_impulse"]) == pytest.approx(0.11 * contact["normal_impulse"])
-    assert speed_along(record) == pytest.approx(0.23 * (cos(0.8) - 0.11 * sin(0.8)), abs=3e-4)
+PRODUCTS = [("rubber", "steel"), ("rubber", 0.22), (1.07, "ice"), ("wood", "ice")]
 
 
 @each_case(
-    ("robot", "wall"), [("rubber", "steel"), ("rubber", 0.22), (1.07, "ice"), ("wood", "ice")]
+    ("robot", "wall", "rule"),
+    [*(("rubber", "ice", rule) for rule in RULES), *((*pair, "product") for pair in PRODUCTS)],
 )
-def test_other_materials_and_numbers_go_by_the_rule(robot, wall):
-    pairs = [MaterialPair("rubber", "ice", friction=0.001)]
-    values = [MATERIALS[f].friction if isinstance(f, str) else f for f in (robot, wall)]
-    record = at_wall(0.6, {"friction": robot}, {"friction": wall}, material_pairs=pairs)
+def test_a_pair_has_its_own_friction_and_other_materials_and_numbers_go_by_the_rule(
+    robot, wall, rule
+):
+    pairs = [MaterialPair("rubber", "ice", friction=0.11)]
+    mine, other = (MATERIALS[f].friction if isinstance(f, str) else f for f in (robot, wall))
+    mu = 0.11 if (robot, wall) == ("rubber", "ice") else mine * other
+    record = at_wall(
+        0.6, {"friction": robot}, {"friction": wall}, friction_rule=rule, material_pairs=pairs
+    )
     contact = record.contacts[-1]
-    ratio = abs(contact["tangential_impulse"]) / contact["normal_impulse"]
-    assert ratio == pytest.approx(values[0] * values[1], rel=1e-6)
+    assert abs(contact["tangential_impulse"]) == pytest.approx(mu * contact["normal_impulse"])
+    assert speed_along(record) == pytest.approx(0.23 * (cos(0.6) - mu * sin(0.6)), abs=3e-4)
 
 
 @each_case("by_pair", [False, True])
-def test_static_friction_holds_what_rests_and_not_what_slides(by_pair):
-    """Between both coefficients it depends on how a robot came there."""
+@each_case("needed", [0.48, 0.52, 0.7, 0.88, 0.92])
+def test_static_friction_holds_what_rests_and_not_what_slides(by_pair, needed):
+    """Between both coefficients it depends on how a robot came there.
+
+    needed: the ratio of friction to push that holds it.
+    """
     static, kinetic = 0.9, 0.5
     if by_pair:
         pair = MaterialPair("wood", "felt", friction=kinetic, static_friction=static)
@@ -103,45 +105,15 @@ def test_static_friction_holds_what_rests_and_not_what_slides(by_pair):
     else:
         surfaces = {"friction": kinetic, "static_friction": static}, {}, {}
     robot, wall, fields = surfaces
-    angle = atan(1 / 0.7)
-    rests = at_wall(angle, robot, wall, **fields)
-    comes = at_wall(angle, robot, wall, apart=0.1, **fields)
-    assert speed_along(rests) == pytest.approx(0.0, abs=1e-6)
-    assert speed_along(comes) == pytest.approx(0.23 * (cos(angle) - 0.5 * sin(angle)), rel=5e-3)
-    for record, ratio in ((rests, 1 / tan(angle)), (comes, kinetic)):
+    angle = atan(1 / needed)
+    for apart, most in ((0.0, static), (0.1, kinetic)):
+        record = at_wall(angle, robot, wall, apart=apart, **fields)
         contact = record.contacts[-1]
         found = abs(contact["tangential_impulse"]) / contact["normal_impulse"]
+        ratio = needed if needed < most else kinetic
         assert found == pytest.approx(ratio, rel=2e-3)
-
-
-def test_a_robot_that_turns_its_push_begins_to_slide_at_static_and_stops_at_kinetic_friction():
-    """The push turns from the normal to 60 degrees beside it and back, by a degree a second."""
-    static, kinetic = 0.8, 0.45
-    robot = Robot(
-        pose=(0, 0.2, 0), diameter=0.4, drive=Holonomic(max_force=3.0, max_torque=1000),
-        friction=kinetic, static_friction=static,
-    )  # fmt: skip
-    scenario = Scenario(robots=[robot], addons=[Map([[(-9, 0), (99, 0)]])], workspace=None)
-
-    def lean(time: float) -> float:
-        return radians(60 - abs(60 - time))
-
-    def push(time: float) -> np.ndarray:
-        return np.array([[0.4 * sin(lean(time))], [-0.4 * cos(lean(time))]])
-
-    record = run(scenario, push, 120)
-    speed = np.diff(record.pose[:, 0, 0]) / 0.1
-    times = record.time[1:]
-    slides = times[speed > 2e-3]
-    assert lean(slides[0]) == pytest.approx(atan(static), abs=radians(0.6))
-    assert lean(slides[-1]) == pytest.approx(atan(kinetic), abs=radians(0.6))
-    rows = record.contacts
-    mean = np.abs(rows["tangential_impulse"]) / rows["normal_impulse"]
-    within = (rows["time"] > slides[0] + 1) & (rows["time"] < slides[-1] - 1)
-    assert np.abs(mean[within] - kinetic).max() < 2e-3
-    # It slides at the speed at which the wheels' slip leans by the angle of friction.
-    k = int(np.searchsorted(times, 60.0))
-    assert speed[k] == pytest.approx(0.4 * (sin(lean(60)) - kinetic * cos(lean(60))), rel=5e-3)
+        slides = 0.23 * (cos(angle) - ratio * sin(angle))
+        assert speed_along(record) == pytest.approx(slides, rel=5e-3, abs=1e-3 * 0.23)
 
 
 # -- impacts ----------------------------------------------------------------------------------
@@ -188,26 +160,24 @@ def test_a_grazing_blow_has_the_impulses_of_both_rules(friction_rule, restitutio
     assert found == pytest.approx([normal, mu * normal], rel=1e-2)
 
 
-@each_case("names", [("glass", "steel"), ("steel", "glass")])
-def test_a_grazing_blow_of_a_pair_has_its_values_in_either_order(names):
+def test_a_grazing_blow_of_a_pair_has_its_values_and_what_it_leaves_out_goes_by_the_rule():
     pairs = [
         MaterialPair("ice", "steel", friction=0.5, restitution=0.1),
         MaterialPair("glass", "steel", friction=0.02, restitution=0.91),
         MaterialPair("glass", "glass", friction=0.3),
     ]
-    found, blow, _ = impact(names, names, material_pairs=pairs)
-    assert found == pytest.approx([1.91 * blow, 0.02 * 1.91 * blow], rel=1e-2)
-
-
-def test_what_a_pair_leaves_out_and_what_is_a_number_goes_by_the_rule():
+    for names in (("glass", "steel"), ("steel", "glass")):
+        found, blow, _ = impact(names, names, material_pairs=pairs)
+        assert found == pytest.approx([1.91 * blow, 0.02 * 1.91 * blow], rel=1e-2)
     pairs = [MaterialPair("glass", "steel", restitution=0.3)]
-    table = MATERIALS["glass"], MATERIALS["steel"]
-    found, blow, ends = impact(("glass", "steel"), ("glass", "steel"), material_pairs=pairs)
-    mu = table[0].friction * table[1].friction
+    glass, steel = MATERIALS["glass"], MATERIALS["steel"]
+    found, blow, ends = impact(names, names, material_pairs=pairs)
     normal = 1.3 * blow
-    assert found == pytest.approx([normal, min(mu * normal, ends)], rel=1e-2)
+    assert found == pytest.approx(
+        [normal, min(glass.friction * steel.friction * normal, ends)], rel=1e-2
+    )
     found, blow, _ = impact((0.05, 0.4), ("glass", 0.5), material_pairs=pairs)
-    normal = (1 + 0.5 * table[0].restitution) * blow
+    normal = (1 + 0.5 * glass.restitution) * blow
     assert found == pytest.approx([normal, 0.02 * normal], rel=1e-2)
 
 
@@ -246,21 +216,9 @@ def test_a_box_that_glides_knows_kinetic_friction_alone():
 
 def test_a_hand_pulls_a_box_loose_at_static_friction():
     box = Box(mass=2.0, ground_friction=0.2, static_ground_friction=0.5)
-    world = World(Scenario(robots=[Robot(pose=(0, 3, 0))], props=[box], stop_time=9))
-    most = 0.5 * 2.0 * GRAVITY
-    assert world.simulation.engine.withstands(1, 0.99 * most, 0.0)
-    assert not world.simulation.engine.withstands(1, 1.01 * most, 0.0)
-
-
-def stick_slip(k: float, m: float, static: float, kinetic: float, v: float) -> Record:
-    """Draw a box by a spring, whose other end moves at v m/s."""
-    box = Box(mass=m, ground_friction=kinetic, static_ground_friction=static)
-    robot = Robot(pose=(1, 0, 0), drive=Unicycle(max_force=90.0))
-    spring = Spring(a="robot0", b="box0", stiffness=k)
-    scenario = Scenario(
-        robots=[robot], props=[box], joints=[spring], workspace=None, sampling_time=0.01
-    )
-    return run(scenario, [[v], [0.0]], 15.0)
+    engine = endless([Robot(pose=(0, 3, 0))], [box]).simulation.engine
+    found = [engine.withstands(1, share * 0.5 * 2.0 * GRAVITY, 0.0) for share in (0.99, 1.01)]
+    assert found == [True, False]
 
 
 @each_case(
@@ -269,7 +227,13 @@ def stick_slip(k: float, m: float, static: float, kinetic: float, v: float) -> R
 )
 def test_a_box_at_a_spring_moves_in_jerks_with_the_period_of_the_formula(k, m, static, kinetic, v):
     """Stick: 2 d / v. Slip: the half of a swing and more, until the box is at rest again."""
-    record = stick_slip(k, m, static, kinetic, v)
+    box = Box(mass=m, ground_friction=kinetic, static_ground_friction=static)
+    robot = Robot(pose=(1, 0, 0), drive=Unicycle(max_force=90.0))
+    scenario = Scenario(
+        robots=[robot], props=[box], joints=[Spring(a="robot0", b="box0", stiffness=k)],
+        workspace=None, sampling_time=0.01,
+    )  # fmt: skip
+    record = run(scenario, [[v], [0.0]], 15.0)
     speed = np.diff(record.prop_pose[:, 0, 0]) / 0.01
     middle = record.time[1:] - 0.005
     up = np.flatnonzero((speed[:-1] < v) & (speed[1:] >= v))
@@ -284,16 +248,6 @@ def test_a_box_at_a_spring_moves_in_jerks_with_the_period_of_the_formula(k, m, s
 # -- what is asked for, and what is not -------------------------------------------------------
 
 
-def mover(scenario: Scenario) -> object:
-    with plainly():
-        return translation.mover_of(scenario)
-
-
-@each_case("name", ["crowd", "wall_slide", "billiards"])
-def test_who_asks_for_nothing_pays_for_nothing(name):
-    assert mover(open_experiment(name).scenario).surfaces is None
-
-
 @each_case("name", ["shove_and_spin", "wall_slide", "billiards", "crowd"])
 def test_static_friction_as_large_as_the_kinetic_one_changes_no_bit(name):
     """The solver asks for each contact then, and gets what it would have worked out itself."""
@@ -301,7 +255,7 @@ def test_static_friction_as_large_as_the_kinetic_one_changes_no_bit(name):
     usual = experiment.scenario
     first = usual.robots[0].replace(static_friction=usual.robots[0].friction)
     asked = usual.replace(robots=[first, *usual.robots[1:]])
-    assert mover(asked).surfaces is not None
+    assert [mover_of(each).surfaces is None for each in (usual, asked)] == [True, False]
     digests = [simulate(experiment.redrawn(scenario)).record.digest for scenario in (usual, asked)]
     assert digests[0] == digests[1]
 
@@ -312,20 +266,25 @@ def test_walls_in_one_line_keep_their_own_surfaces():
         MaterialPair("rubber", "wood", friction=0.3),
         MaterialPair("rubber", "glass", friction=0.6),
     ]
-    walls = [
-        Map([[(-3, 0), (0, 0)]], name="left", friction="wood"),
-        Map([[(0, 0), (9, 0)]], name="right", friction="glass"),
-    ]
-    drive = Unicycle(max_torque=1000, max_linear_speed=1)
-    slider = Robot(pose=(-1, 0.15, -0.6), drive=drive, friction="rubber")
-    scenario = Scenario(robots=[slider], addons=walls, workspace=None, material_pairs=pairs)
-    record = run(scenario, [[0.5], [0.0]], 8.0)
-    rows = record.contacts
+    left, right = (
+        Map([[(-3, 0), (0, 0)]], friction="wood"),
+        Map([[(0, 0), (9, 0)]], friction="glass"),
+    )
+    rows = slid([left, right.replace(name="right")], "rubber", material_pairs=pairs)
     ratio = np.abs(rows["tangential_impulse"]) / rows["normal_impulse"]
     left, right = rows["point"][:, 0] < -0.2, rows["point"][:, 0] > 0.2
     assert min(left.sum(), right.sum()) > 9
     assert ratio[left][2:] == pytest.approx(0.3, rel=1e-6)
     assert ratio[right] == pytest.approx(0.6, rel=1e-6)
+
+
+def slid(walls: list, friction: object, **fields) -> np.ndarray:
+    """Slide over walls along the x axis from -1 m on; return what pushed."""
+    drive = Unicycle(max_torque=1000, max_linear_speed=1)
+    slider = Robot(pose=(-1, 0.15, -0.6), drive=drive, friction=friction)
+    scenario = Scenario(robots=[slider], addons=walls, workspace=None, **fields)
+    rows = run(scenario, [[0.5], [0.0]], 8.0).contacts
+    return rows[rows["normal_impulse"] > 0]
 
 
 def test_a_wall_of_several_obstacles_has_their_surface():
@@ -334,10 +293,7 @@ def test_a_wall_of_several_obstacles_has_their_surface():
         Map([[(-3, 0), (0, 0)], [(0, 0), (1.5, 0)]], name="left", friction=0.25),
         Map([[(1.5, 0), (9, 0)]], name="right", friction=0.25),
     ]
-    slider = Robot(pose=(-1, 0.15, -0.6), drive=Unicycle(max_torque=1000), friction=0.9)
-    scenario = Scenario(robots=[slider], addons=walls, workspace=None, friction_rule="minimum")
-    rows = run(scenario, [[0.5], [0.0]], 8.0).contacts
+    rows = slid(walls, 0.9, friction_rule="minimum")
     assert set(rows["b"].tolist()) == {-1, -2, -3}
-    rows = rows[rows["normal_impulse"] > 0]
     ratio = np.abs(rows["tangential_impulse"]) / rows["normal_impulse"]
     assert ratio[2:] == pytest.approx(0.25, rel=1e-6)

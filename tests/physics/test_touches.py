@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from array import array
-from math import cos, pi, radians, sin, sqrt
+from math import cos, pi, radians, sin
 
 import numpy as np
 import pytest
@@ -21,7 +21,6 @@ from mars2d.physics.motion import WIDE
 from mars2d.record.contact import CONTACT
 from tests.cases import each_case
 from tests.islands import DISC, body_of, piece_of
-from tests.worlds import drive
 
 
 def log_of(*numbers: int) -> list:
@@ -254,21 +253,6 @@ def test_rows_add_up_to_the_momentum_that_contacts_give_in_each_control_step(tim
         world = room(robots, props, time, addons=addons)
         faults += faults_of(world, command, friction, 4 if time > 0.01 else 1)
     assert faults == []
-
-
-def test_a_robot_that_drives_into_a_corner_presses_on_each_wall_with_its_part_of_its_force():
-    robot = Robot(pose=(0.5, 0.5, pi / 4), friction=0.0)
-    world = room([robot], [], 0.1, 1.0)
-    drive(world, [[0.2], [0.0]], 5)
-    assert len(world.contacts) == 2
-    for row, normal in zip(world.contacts, ([0, 1], [1, 0]), strict=True):
-        assert row["b"] == -1
-        assert row["normal"] == pytest.approx(normal, abs=1e-9)
-        assert row["normal_impulse"] / 0.1 == pytest.approx(5 / sqrt(2), rel=1e-9)
-        assert row["impulse"] == row["normal_impulse"]
-        assert not row["ended"]
-    assert world.record.collisions == 1  # of one pair
-    assert world.contacts["began"].tolist() == [False, False]
 
 
 def test_who_meets_two_walls_of_one_outline_in_a_control_step_has_two_rows_and_collisions():

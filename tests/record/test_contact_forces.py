@@ -7,9 +7,7 @@ import pytest
 
 import mars2d
 from mars2d import Robot, Scenario, Unicycle
-from mars2d.bodies.props import Ball, Solid
 from mars2d.record.contact import CONTACT, net_forces, pair_forces
-from tests.worlds import ELL
 
 SQUARE = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
 
@@ -41,27 +39,6 @@ def test_a_pair_has_one_force_a_control_step_by_all_its_normals():
     np.testing.assert_allclose(net[..., 1], [(-2, 4), (-1, -2), (0, 0)])
     assert len(pair_forces(contacts[:0], rows[:0], 0.1)) == 0
     assert net_forces(found[:0], [], range(2)).shape == (2, 2, 0)
-
-
-def test_what_feels_contacts_alone_changes_its_momentum_by_them_in_each_control_step():
-    """Balls in a box of walls: against walls, corners, each other and an L by two normals."""
-    props = [
-        Ball(pose=(0.1 * k - 0.3, 0.35 * (k % 2) - 0.5, 0), diameter=0.16, friction=0.4,
-             velocity=(0.9 - 0.4 * k, 0.5 + 0.3 * k, 1.0), restitution=0.6)
-        for k in range(5)
-    ]  # fmt: skip
-    props.append(Solid(ELL, pose=(0.3, 0.4, 0.5), mass=0.5, ground_friction=0.0))
-    scenario = Scenario(
-        robots=[Robot(pose=(-0.8, -0.8, 0.7))], props=props, workspace=SQUARE, on_exit="wall",
-        sampling_time=0.05, stop_time=6,
-    )  # fmt: skip
-    record = mars2d.run(scenario, control=ahead)
-    bodies = range(1, 1 + len(props))
-    change = np.diff(record.momentum.linear[:, :, 1:], axis=0)
-    felt = forces_on(record, *bodies)[1:] * scenario.sampling_time
-    assert (np.abs(felt).max(axis=(0, 1)) > 1e-3).all(), "each was touched"
-    assert len(record.pair_forces) < len(record.contacts), "pairs touched by several normals"
-    np.testing.assert_allclose(felt, change, atol=1e-12)
 
 
 def test_a_robot_that_stalls_presses_on_both_walls_of_a_corner_with_its_drives_bound():

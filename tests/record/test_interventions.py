@@ -60,23 +60,14 @@ def changed():
     return world
 
 
-def test_a_run_in_which_walls_were_drawn_is_the_same_again_to_the_bit():
+def test_a_run_in_which_walls_were_drawn_is_the_same_again_to_the_bit_also_from_a_file(tmp_path):
     record = changed().record
     assert [type(i).__name__ for i in record.interventions] == ["Change"] * 3
     assert len(record.contacts)  # the robot has met the block
-    assert rerun(record) is None
-
-
-def test_so_it_is_from_a_file(tmp_path):
-    record = changed().record
     loaded = mars2d.load(record.save(tmp_path / "changed.npz"))
     assert loaded.interventions == record.interventions
     assert loaded.digest == record.digest
-    assert rerun(loaded) is None
-
-
-def test_the_record_tells_what_was_simulated_at_each_row():
-    record = changed().record
+    assert rerun(record) is rerun(loaded) is None
     assert [len(record.scenario_at(row).obstacles) for row in (9, 10, 20, 59)] == [0, 1, 2, 2]
 
 

@@ -56,15 +56,13 @@ def record() -> Record:
 
 
 def test_columns_have_time_first(record):
-    assert record.time.shape == (21,)
-    assert record.pose.shape == (21, 3, 3)
-    assert record.command.shape == (21, 2, 3)
-    assert record.command_time.shape == (21,)
-    assert record.prop_pose.shape == (21, 3, 2)
-    assert record.effort.shape == (21, 3)
-    assert record.velocity.shape == (21, 3, 3)
-    assert record.prop_velocity.shape == (21, 3, 2)
-    assert record.work.shape == (21, 6)
+    shapes = {
+        "time": (), "pose": (3, 3), "command": (2, 3), "command_time": (), "prop_pose": (3, 2),
+        "effort": (3,), "velocity": (3, 3), "prop_velocity": (3, 2), "work": (6,),
+    }  # fmt: skip
+    assert {name: getattr(record, name).shape for name in shapes} == {
+        name: (21, *shape) for name, shape in shapes.items()
+    }
     assert record.sensors["proximity"].shape == (21, 1)
     assert record.sensors["beams"].shape == (21, 2, 3)
     assert record.sensor_robots == {"proximity": (0,), "beams": (0, 2)}
@@ -103,24 +101,16 @@ def test_why_it_ended_is_kept(record):
 
 
 def test_the_digest_depends_on_every_column(record):
-    digests = {record.digest}
-    for change in (
-        {"pose": record.pose + 1e-15},
-        {"command": record.command + 1e-15},
-        {"time": record.time + 1e-15},
-        {"command_time": record.command_time + 1},
-        {"prop_pose": record.prop_pose + 1e-15},
-        {"effort": record.effort + 1e-15},
-        {"velocity": record.velocity + 1e-15},
-        {"prop_velocity": record.prop_velocity + 1e-15},
-        {"work": record.work + 1e-15},
+    columns = {name: getattr(record, name) for name in COLUMNS}
+    changes = [
+        *({name: column + 1e-15} for name, column in columns.items()),
         {"over_message": "x"},
         {"sensors": {**record.sensors, "beams": record.sensors["beams"] + 1e-9}},
         {"sensors": {"proximity": record.sensors["proximity"]}},
         {"contacts": record.contacts[:-1]},
-    ):
-        digests.add(_with(record, **change).digest)
-    assert len(digests) == 14
+    ]
+    digests = {record.digest, *(_with(record, **change).digest for change in changes)}
+    assert len(digests) == 1 + len(changes) >= 14
     assert _with(record).digest == record.digest
 
 
@@ -173,20 +163,6 @@ def test_a_contact_at_the_very_end_of_a_control_step_belongs_to_it(sampling_time
 
 
 # -- files ----------------------------------------------------------------------------------
-
-
-def test_what_is_saved_comes_back_to_the_last_bit(record, tmp_path):
-    path = record.save(tmp_path / "run.npz")
-    again = mars2d.load(path)
-    assert again.digest == record.digest
-    for name in (*COLUMNS, "contacts"):
-        assert np.array_equal(getattr(again, name), getattr(record, name))
-    for name, values in record.sensors.items():
-        assert np.array_equal(again.sensors[name], values)
-        assert again.sensors[name].dtype == values.dtype
-    for name in ("seed", "over_message", "finished", "filename", "versions", "sensor_robots"):
-        assert getattr(again, name) == getattr(record, name)
-    assert mars2d.load(again.save(tmp_path / "twice.npz")).digest == record.digest
 
 
 def test_the_scenario_comes_back_without_its_laws_and_own_parts(record, tmp_path):

@@ -6,7 +6,6 @@ import json
 import math
 import re
 import shlex
-import shutil
 from html import unescape
 from pathlib import Path
 
@@ -119,7 +118,7 @@ def check_numbers(folder, seed=0):
 
 
 @pytest.mark.slow
-def test_one_figure_alone_makes_its_page_its_pictures_and_its_numbers(cheap):
+def test_one_figure_alone_makes_its_page_its_pictures_and_its_numbers(cheap, paper):
     found = check_page(cheap, [2])
     (made,) = check_numbers(cheap).values()
     assert made["ok"]
@@ -128,6 +127,10 @@ def test_one_figure_alone_makes_its_page_its_pictures_and_its_numbers(cheap):
     assert {path.name for path in cheap.iterdir()} == {
         "index.html", "numbers.json", "fig2_random_walk.pdf", "fig2_random_walk.png",
     }  # fmt: skip
+    (cheap / "notes.txt").write_text("mine")  # other files in it are left
+    assert paper(cheap, "--only", "2")[0] == 0
+    check_page(cheap, [2])
+    assert (cheap / "notes.txt").read_text() == "mine"
 
 
 @pytest.mark.nightly
@@ -196,15 +199,6 @@ def test_a_folder_of_something_else_is_refused_and_left_as_it_is(paper, name):
     assert (code, out) == (2, "")
     assert f"holds {name}, and no page of `mars2d paper`" in err
     assert {p.name: p.read_text() for p in folder.iterdir()} == {name: "<html>mine</html>"}
-
-
-@pytest.mark.slow
-def test_the_folder_of_an_earlier_run_is_taken_again_and_other_files_in_it_are_left(paper, cheap):
-    shutil.copytree(cheap, "out")
-    Path("out/notes.txt").write_text("mine")
-    assert paper("out", "--only", "2")[0] == 0
-    check_page(Path("out"), [2])
-    assert Path("out/notes.txt").read_text() == "mine"
 
 
 @each_case(

@@ -1,9 +1,5 @@
 """The scenes of the benchmarks, the gaps between their bodies, and the bare loop beside them."""
 
-import subprocess
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 from gaps import Gaps
@@ -12,8 +8,6 @@ from worlds import SETTINGS, deepest, world_of
 from yardstick import Bare
 
 from tests.cases import each_case
-
-BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 
 # -- scenes ---------------------------------------------------------------------------------------
 
@@ -30,19 +24,11 @@ def test_a_scene_is_the_same_each_time_and_nothing_touches_in_it(name):
     assert np.abs(starts[:, :2]).max() < scene.side / 2 - scene.radius
 
 
-def test_a_world_of_a_scene_has_its_robots_sensors_obstacles_and_settings():
-    world = world_of(SCENES["S3"](), SETTINGS["loose"])
-    assert world.scenario.max_overlap == 0.02
-    assert world.scenario.sampling_time == 0.1
-    assert len(world.obstacles) == 51  # and the wall
-    world.step()
-    assert world.record.sensors["range_finder"].shape == (1, 20, 180)
-
-
 @each_case("name, robots, crates", [("P1", 20, 30), ("P2", 60, 0), ("P3", 10, 5)])
 def test_a_world_of_contacts_has_its_robots_crates_and_ropes(name, robots, crates):
     scene = SCENES[name]()
-    world = world_of(scene)
+    world = world_of(scene, SETTINGS["loose"])
+    assert (world.scenario.max_overlap, world.scenario.sampling_time) == (0.02, scene.sampling_time)
     assert (len(world.robots), len(world.props)) == (robots, crates)
     assert set(scene.half_sides[:robots]) == {0.15 if name == "P2" else 0}
     drives = {(robot.drive.max_force, robot.drive.max_torque) for robot in world.scenario.robots}
@@ -130,14 +116,3 @@ def test_gaps_of_squares_are_those_which_one_works_out(robot, crate, expected):
     among, fixed = Gaps(SQUARES)(np.array([robot, crate], float), within=1.0)
     assert among == pytest.approx([expected[0]] * 2)
     assert fixed[0] == pytest.approx(expected[1])
-
-
-# -- the scripts in benchmarks/ -------------------------------------------------------------------
-
-
-def script(name, *arguments, cwd):
-    """Run a script of the benchmarks, and return what it prints."""
-    command = [sys.executable, BENCHMARKS / name, *map(str, arguments)]
-    done = subprocess.run(command, cwd=cwd, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    return done.stdout

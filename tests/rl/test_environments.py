@@ -1,7 +1,6 @@
 """Environments of gymnasium and PettingZoo: spaces, rewards, ends, seeds, records, errors."""
 
 import warnings
-from pathlib import Path
 
 import gymnasium
 import numpy as np
@@ -20,8 +19,6 @@ from mars2d.sensors import Bumper, Imu, RangeBearing, RangeFinder
 from mars2d.world.verify import rerun
 from mars2d.world.world import World
 from tests.cases import each_case
-
-ROOT = Path(__file__).resolve().parents[2]
 
 
 def chase(apart=3.0, stop_time=5.0, **fields):
@@ -66,25 +63,6 @@ def test_what_is_registered_passes_the_check_of_gymnasium_without_a_warning(name
     assert picture.shape == (480, 640, 3)
     assert picture.std() > 10  # something is drawn
     environment.close()
-
-
-IN_PROCESSES = """
-import gymnasium
-
-if __name__ == "__main__":
-    assert not [name for name in gymnasium.registry if name.startswith("mars2d")]
-    alone = gymnasium.make("mars2d.rl:mars2d/Push-v0")
-    assert alone.reset(seed=1)[0].shape == (8,)
-    vector = gymnasium.make_vec(
-        "mars2d.rl:mars2d/Push-v0", num_envs=2, vectorization_mode="async",
-        vector_kwargs={"context": "spawn"},
-    )
-    seen, _ = vector.reset(seed=1)
-    assert seen.shape == (2, 8) and (seen[0] == alone.reset(seed=1)[0]).all()
-    assert (seen[0] != seen[1]).any()
-    assert vector.step(vector.action_space.sample())[1].shape == (2,)
-    vector.close()
-"""
 
 
 def test_who_is_out_of_a_game_ends_alone_while_the_others_go_on():
@@ -227,14 +205,9 @@ class Crab(mars2d.Drive):
         return np.array([command[0], command[1], 0 * command[0]])
 
 
-def wrong_agent():
-    ParallelEnvironment(chase()).action_space("rod")
-
-
 def after_the_end():
     environment = Environment(chase(apart=0.8), "pursuer")
-    for _ in steps(environment, [1, 0]):
-        pass
+    assert list(steps(environment, [1, 0]))
     environment.step([1, 0])
 
 
@@ -242,6 +215,10 @@ def no_action():
     environment = ParallelEnvironment(chase())
     environment.reset(seed=1)
     environment.step({"red": [0, 0]})
+
+
+def rewarded(**robot):
+    return Environment(Scenario(robots=[Robot(**robot)]), reward=lambda world, robot: 0)
 
 
 def stepped(action):
@@ -257,7 +234,9 @@ WRONG = {
     "there is no such robot or role; did you mean 'pursuer'?": lambda: Environment(
         chase(), "pursuers"
     ),
-    "there is no learner 'rod'; did you mean 'red'?": wrong_agent,
+    "there is no learner 'rod'; did you mean 'red'?": lambda: ParallelEnvironment(
+        chase()
+    ).action_space("rod"),
     "laws: red learns": lambda: Environment(chase(), "red", laws={"pursuer": lambda robot: (0, 0)}),
     "laws of evder: there is no such robot or role; did you mean 'evader'": lambda: Environment(
         chase(), "red", laws={"evder": lambda robot: (0, 0)}
@@ -269,15 +248,9 @@ WRONG = {
         steps(Environment(chase(), "red", reward=lambda world, robot: np.nan), [0, 0])
     ),
     "did you mean 'rgb_array'": lambda: Environment(chase(), "red", render_mode="rgb_aray"),
-    "does not limit its commands": lambda: Environment(
-        Scenario(robots=[Robot(drive=Crab())]), reward=lambda world, robot: 0
-    ),
-    "sees sensors only, and carries none": lambda: Environment(
-        Scenario(robots=[Robot(sees="sensors")]), reward=lambda world, robot: 0
-    ),
-    "not a fixed number of numbers": lambda: Environment(
-        Scenario(robots=[Robot(sensors=[RangeBearing()])]), reward=lambda world, robot: 0
-    ),
+    "does not limit its commands": lambda: rewarded(drive=Crab()),
+    "sees sensors only, and carries none": lambda: rewarded(sees="sensors"),
+    "not a fixed number of numbers": lambda: rewarded(sensors=[RangeBearing()]),
     "no record is kept": lambda: Environment(chase(), "red").record,
 }
 

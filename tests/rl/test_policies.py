@@ -47,12 +47,7 @@ def policy(spaces, tmp_path):
     return save(tmp_path / "hunter.onnx", {"mars2d": spaces})
 
 
-def test_a_policy_commands_shares_of_the_bounds_that_it_was_learned_with(policy):
-    record = mars2d.run("corner_game", stop_time=2, options={"pursuer": str(policy)})
-    assert record.command[:, :, 0] == pytest.approx(np.tile([0.2, 0.0], (21, 1)))
-
-
-def test_a_policy_decides_as_the_environment_asked_it(spaces, policy):
+def test_a_policy_decides_as_the_environment_asked_it_by_shares_of_the_bounds(policy):
     environment = Environment("corner_game", "pursuer", record=True, options={"stop_time": 2})
     environment.reset(seed=4)
     for _ in range(20):
@@ -60,6 +55,7 @@ def test_a_policy_decides_as_the_environment_asked_it(spaces, policy):
     options = {"pursuer": str(policy)}
     run = mars2d.run("corner_game", stop_time=2, seed=4, options=options)
     assert np.array_equal(environment.record.pose, run.pose)
+    assert run.command[:, :, 0] == pytest.approx(np.tile([0.2, 0.0], (21, 1)))
 
 
 def test_a_world_with_a_policy_forks(policy):

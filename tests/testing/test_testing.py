@@ -1,6 +1,6 @@
 """The checkers of a user's own parts: each fault is seen and named, and what is sound passes."""
 
-# ruff: noqa: PLW0108, PLW0603, SIM105 - faults, as people write them
+# ruff: noqa: PLW0603, SIM105 - faults, as people write them
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def clock(self, robot, world, rng):
 
 
 SENSORS = {
-    "read is missing": (lambda: sensor(), ["no method read", "read(self, robot, world, rng)"]),
+    "read is missing": (sensor, ["no method read", "read(self, robot, world, rng)"]),
     "arguments are in another order": (
         lambda: sensor(lambda self, world, robot, rng: 1.0),
         ["(self, world, robot, rng)", "in this order"],
@@ -117,29 +117,6 @@ SENSORS = {
 }  # fmt: skip
 
 
-@each_case("fault", SENSORS)
-def test_a_fault_of_a_sensor_is_named(fault):
-    SHARED.clear()
-    make, words = SENSORS[fault]
-    findings = findings_of(check_sensor, make())
-    assert seen(findings, *words), texts(findings)
-
-
-def test_all_that_is_wrong_is_said_at_once():
-    class Bad(Sensor):
-        quantities = (DISTANCE,)
-
-        def read(self, robot, world, rng):
-            return random.random() - 0.5
-
-    with pytest.raises(CheckError) as raised:
-        check_sensor(Bad())
-    message = str(raised.value)
-    assert message.startswith("sensor Bad: 2 things wrong\n- ")
-    for words in ("draws from random", "not negative"):
-        assert message.count(words) == 1, message
-
-
 # -- add-ons ----------------------------------------------------------------------------------
 
 
@@ -164,14 +141,6 @@ ADDONS = {
         lambda: addon(on_step=told), ["Judge is not repeatable", "add-on judge.score"],
     ),
 }  # fmt: skip
-
-
-@each_case("fault", ADDONS)
-def test_a_fault_of_an_addon_is_named(fault):
-    SHARED.clear()
-    make, words = ADDONS[fault]
-    findings = findings_of(check_addon, make())
-    assert seen(findings, *words), texts(findings)
 
 
 def test_a_map_of_another_place_is_tried_where_its_walls_leave_room():
@@ -214,8 +183,7 @@ def counting(robot):
 class Pilot:
     """A law that is an object, with one memory for all robots of all worlds."""
 
-    def __init__(self):
-        self.count = 0
+    count = 0
 
     def __call__(self, robot):
         self.count += 1
@@ -248,11 +216,17 @@ LAWS = {
 }  # fmt: skip
 
 
-@each_case("fault", LAWS)
-def test_a_fault_of_a_law_is_named(fault):
+FAULTS = [
+    *((name, check_sensor, make(), {}, words) for name, (make, words) in SENSORS.items()),
+    *((name, check_addon, make(), {}, words) for name, (make, words) in ADDONS.items()),
+    *((name, check_controller, *law) for name, law in LAWS.items()),
+]
+
+
+@each_case(("fault", "check", "part", "options", "words"), FAULTS)
+def test_a_fault_is_named(fault, check, part, options, words):
     SHARED.clear()
-    law, options, words = LAWS[fault]
-    findings = findings_of(check_controller, law, **options)
+    findings = findings_of(check, part, **options)
     assert seen(findings, *words), texts(findings)
 
 
