@@ -17,7 +17,8 @@ from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene, faded
 from mars2d.core.streams import Random
 from mars2d.geometry.bearings import BEARING, RANGE, draw_sighted, hold_missing, sighted
-from mars2d.sensors.base import NOTHING, Float, Scanner, Sighting, Surroundings, sight_angle
+from mars2d.sensors.base import Float, Scanner, Sighting, sight_angle
+from mars2d.sensors.surroundings import NOTHING, Surroundings
 
 FAR = 50.0
 """A field of view that reaches further is not drawn to its end, metres."""

@@ -12,7 +12,8 @@ from mars2d.core.description import accepts, entry, numbers_schema, real, wrong
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene
-from mars2d.sensors.base import Float, Sensor, Surroundings, spread
+from mars2d.sensors.base import Float, Sensor, spread
+from mars2d.sensors.surroundings import Surroundings
 
 ARROW = 0.2
 """The length of an arrow for an acceleration of 1 m/s^2, metres."""

@@ -13,7 +13,8 @@ from mars2d.core.description import integer, number
 from mars2d.core.quantity import COLOR, Quantity
 from mars2d.core.scene import Scene, color_of, faded, rgb
 from mars2d.geometry.bearings import beam_angles
-from mars2d.sensors.base import NOTHING, Float, Scanner, Surroundings, sight_angle
+from mars2d.sensors.base import Float, Scanner, sight_angle
+from mars2d.sensors.surroundings import NOTHING, Surroundings
 
 NEAR, FAR = 0.07, 0.085
 """The line of pixels is drawn between these shares of the range."""

@@ -13,7 +13,8 @@ from mars2d.core.interfaces import RobotLike
 from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene
 from mars2d.geometry.dead_reckoning import draw_pose, sinc
-from mars2d.sensors.base import Float, Sensor, Surroundings
+from mars2d.sensors.base import Float, Sensor
+from mars2d.sensors.surroundings import Surroundings
 
 SCALE: Schema = {"type": "number", "exclusiveMinimum": 0, "maximum": 10}
 

@@ -12,7 +12,8 @@ from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene, faded
 from mars2d.core.streams import Random
 from mars2d.geometry.bearings import BEARING, RANGE, draw_sighted, hold_missing, sighted
-from mars2d.sensors.base import Float, Scanner, Sighting, Surroundings, sight_angle
+from mars2d.sensors.base import Float, Scanner, Sighting, sight_angle
+from mars2d.sensors.surroundings import Surroundings
 
 
 class RangeBearing(Scanner):

@@ -15,7 +15,8 @@ from mars2d.core.arrays import sealed
 from mars2d.core.errors import LawError, UnknownNameError, nearest, shown
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.usercode import called
-from mars2d.sensors.base import Sensor, Surroundings
+from mars2d.sensors.base import Sensor
+from mars2d.sensors.surroundings import Surroundings
 
 
 class Sense(SimpleNamespace):
