@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cached_property
 from math import inf, pi, sqrt
-from typing import Any, ClassVar, NamedTuple, Self
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -268,10 +268,6 @@ class Sensor(Stateful):
         return None
 
     # -- when it measures --------------------------------------------------------------------
-
-    def at_work(self, sampling_time: float) -> Self:
-        """Return a copy that measures in a world of this sampling time, seconds."""
-        return self.live(_interval=self.period(sampling_time) * sampling_time)
 
     def period(self, sampling_time: float) -> int:
         """Return how many control steps lie between two measurements."""

@@ -71,7 +71,8 @@ class Device:
     ) -> None:
         """Take the sensor, its robot and surroundings; stream: makes a random stream of a name."""
         self.described = sensor
-        self.sensor = sensor.at_work(world.sampling_time)
+        self.period = sensor.period(world.sampling_time)
+        self.sensor = sensor.live(_interval=self.period * world.sampling_time)
         self.key, self.robot = sensor.key, robot.index
         self.reading: Any = None
         self._shown: Any = None  # the value that a law finds
@@ -80,7 +81,6 @@ class Device:
         sense: Sense = robot.sense
         sense._names.append(self.key)
         self.readings = vars(sense)
-        self.period = sensor.period(world.sampling_time)
         self.age = sensor.age(world.sampling_time)
         self._on_its_way: deque[tuple[int, Any]] = deque()
         self.follows = type(sensor).on_step is not Sensor.on_step
