@@ -142,6 +142,3 @@ def test_odometry_follows_a_noisy_drive_at_any_sampling_time(sampling_time):
     believed = world.record.sensors["odometry"][-1, :, 2]
     spread(world.pose[2], noise * v * sqrt(world.time / 2) / b)
     spread(believed - world.pose[2], drift * sqrt(v * world.time / 2) / b)
-
-
-# -- one draw for each reading -------------------------------------------------------------------

@@ -1,8 +1,5 @@
 """Hands on a running world: what they pull, place and drive, and what comes of it."""
 
-import os
-import subprocess
-import sys
 import time
 from math import hypot
 
@@ -13,7 +10,6 @@ from mars2d import Holonomic, InputError, Robot, Scenario, Unicycle, World
 from mars2d.addons import Map
 from mars2d.bodies.joints import Spring
 from mars2d.bodies.props import Box, Puck
-from mars2d.physics.islands import reason_without
 from mars2d.world.verify import rerun
 from tests.cases import each_case
 
@@ -128,35 +124,6 @@ def test_a_spring_gives_way_as_far_as_the_hand_is_strong():
     scenario = Scenario(robots=[weak.at(0.5, 0), strong.at(0, 0)], joints=[spring])
     _, path = pulled(scenario, 0, (4.0, 0.0), steps=80, force=10.0)
     assert path[-1, 0] == pytest.approx(0.5 + 10.0 / 20.0, abs=0.01)
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(bool(reason_without()), reason="the engine is not compiled")
-def test_pulls_give_the_same_bits_compiled_and_in_python():
-    code = "from tests.world.test_operator import digest_of_a_crowd\nprint(digest_of_a_crowd())"
-    digests = {
-        subprocess.run(
-            [sys.executable, "-c", code],
-            env=os.environ | {"MARS2D_PLAIN": plain},
-            capture_output=True,
-            text=True,
-            check=True,
-        ).stdout.strip()
-        for plain in ("", "1")
-    }
-    assert len(digests) == 1
-
-
-def digest_of_a_crowd():
-    scenario, targets = crowd(3)
-    world = World(scenario)
-    for k, target in enumerate(targets):
-        world.operator.pull(7, (0.05, 0.1), target, force=40.0)
-        if k == 4:
-            world.operator.pull(3, (0.0, 0.0), (0.0, 0.0))
-        world.step()
-    world.break_off("enough")
-    return world.record.digest
 
 
 # -- pushing ---------------------------------------------------------------------------------------
