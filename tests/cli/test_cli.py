@@ -85,6 +85,7 @@ def test_check_describes_an_experiment_and_tries_its_laws(typed):
         assert word in out
 
 
+@pytest.mark.slow
 def test_doctor_finds_the_installation_sound(tmp_path):
     done = mars("doctor", cwd=tmp_path)  # a process of its own, as its standard files are looked at
     assert done.returncode == 0, done.stdout
