@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 NEVER = sys.maxsize
 """A row that no run reaches."""
 
+
 class Timeline:
     """A run in a window: rows up to the newest can be looked at, and gone on from.
 
