@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.checks import MAX_COORDINATE
-from mars2d.core.description import accepts, several, wrong
+from mars2d.core.checks import COORDINATE, MAX_COORDINATE
+from mars2d.core.description import accepts, real, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.scene import LARGEST_IMAGE, rgb
 
@@ -56,20 +56,17 @@ def image_file(name: str, value: object) -> str | None:
     return str(value)
 
 
-BOUNDS = "(xmin, xmax, ymin, ymax) in metres with xmin < xmax and ymin < ymax, or None"
-
-_four = several(-MAX_COORDINATE, MAX_COORDINATE, 4, BOUNDS)
-
-
-@accepts(vars(_four)["schema"])
+@accepts({"type": "array", "items": COORDINATE, "minItems": 4, "maxItems": 4})
 def image_bounds(name: str, value: object) -> Bounds | None:
     """Check the bounds of an image, or None."""
     if value is None:
         return None
-    xmin, xmax, ymin, ymax = _four(name, value)
-    if not (xmin < xmax and ymin < ymax):
-        raise wrong(name, value, BOUNDS)
-    return xmin, xmax, ymin, ymax
+    if isinstance(value, (tuple, list, np.ndarray)) and len(value) == 4:
+        xmin, xmax, ymin, ymax = (real(f"{name}[{i}]", item) for i, item in enumerate(value))
+        if xmin < xmax and ymin < ymax and max(-xmin, xmax, -ymin, ymax) <= MAX_COORDINATE:
+            return xmin, xmax, ymin, ymax
+    expected = "(xmin, xmax, ymin, ymax) in metres with xmin < xmax and ymin < ymax, or None"
+    raise wrong(name, value, expected)
 
 
 class Picture:
