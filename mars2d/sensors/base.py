@@ -340,10 +340,6 @@ class Sensor(Stateful):
             self.key, self.quantities, noise, resolution, self.outliers, self.dropouts, top
         )
 
-    @property
-    def _perfect(self) -> bool:
-        return self._imperfection.none
-
     def measured(self, reading: Any, rng: Random) -> Any:
         """Return a perfect reading with the errors of the device, all but the latency.
 

@@ -89,11 +89,8 @@ class Odometry(Sensor):
 
     def _roll(self, travel: list[float], rng: np.random.Generator) -> None:
         """Add the true travels of the wheels (left, right, across), metres."""
-        left, right, across = (
-            travel[0] * self.wheel_scale[0],
-            travel[1] * self.wheel_scale[1],
-            travel[2],
-        )
+        left, right = (s * scale for s, scale in zip(travel, self.wheel_scale, strict=False))
+        across = travel[2]
         if self.drift:
             errors = rng.standard_normal(3).tolist()
             off = [self.drift * sqrt(abs(s)) * n for s, n in zip(travel, errors, strict=True)]

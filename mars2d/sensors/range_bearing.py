@@ -47,7 +47,7 @@ class RangeBearing(Scanner):
     def measured(self, reading: Float, rng: Random) -> Float:
         """Return perfect readings with errors; a robot that is not seen stays unseen."""
         rows: Float = super().measured(reading, rng)
-        if self._perfect:
+        if self._imperfection.none:
             return rows
         rows = hold_missing(rows, reading)
         return rows if self.identity else _nearest_first(rows)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from mars2d.core import checks
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Point
 from mars2d.core.through import through
@@ -114,11 +115,12 @@ class Surroundings:
 
     @property
     def beacons(self) -> Mapping[str, Point]:
-        """Where the beacons are now, by name."""
+        """Where the beacons are now, by name. Raises LawError for what is no point."""
         found: dict[str, Point] = {}
         for addon in vars(self.addons).values():
             with called(f"add-on {addon.key!r}", addon.beacons):
-                found |= addon.beacons()
+                for name, place in addon.beacons().items():
+                    found[str(name)] = checks.point(f"beacon {name!r}", place)
         return found
 
     def ground(self, point: Point) -> tuple[float, float, float]:
