@@ -14,7 +14,7 @@ from mars2d.addons import Map
 from mars2d.bodies.props import Ball, Box
 from mars2d.geometry.shapes import Compound, Disc, Polygon
 from mars2d.sensors import RangeFinder
-from mars2d.sensors.base import NOTHING
+from mars2d.sensors.surroundings import NOTHING
 from tests.cases import each_case
 
 EXACT = 1e-9  # m
