@@ -27,7 +27,7 @@ from mars2d.addons.contest import (
 from mars2d.core import checks
 from mars2d.core.arithmetic import ROUNDING, norms
 from mars2d.core.description import accepts, entry, flag, integer, number, real, wrong
-from mars2d.core.errors import InputError, counted, likely, ordinal
+from mars2d.core.errors import InputError, counted, likely
 from mars2d.core.interfaces import FrameLike, ScenarioLike, WorldLike
 from mars2d.core.plane import Outline, edges_of, outside_polygon
 from mars2d.core.scene import Scene, faded
@@ -226,8 +226,8 @@ class Game(Elimination):
         if len(self.captures) >= (self.wanted or evaders):
             time, hunter, evader = self.captures[-1]
             count = len(self.captures)
-            which = "last" if count == evaders else ordinal(count)
-            whom = names[evader] + (f", the {which} of {evaders}," if evaders > 1 else "")
+            which = "the last" if count == evaders else f"number {count}"
+            whom = names[evader] + (f", {which} of {evaders}," if evaders > 1 else "")
             verb = "sees" if self.capture == SIGHT else "catches"
             late = f", not within {self.par:g} s" if self.winner == self.roles[1][0] else ""
             return f"{names[hunter]} {verb} {whom} after {round(time, 2):g} s{late}{won}"

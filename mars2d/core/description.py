@@ -45,12 +45,6 @@ def accepts(schema: Schema) -> Callable[[C], C]:
     return marked
 
 
-def numbers_schema(low: float, high: float, least: int, most: int) -> Schema:
-    """Return the schema of a list of `least` to `most` numbers from low to high."""
-    each = {"type": "number", "minimum": low, "maximum": high}
-    return {"type": "array", "items": each, "minItems": least, "maxItems": most}
-
-
 def wrong(name: str, value: object, expected: str) -> InputError:
     """Return the error for a field `name` that was given `value`, which is not as expected."""
     return InputError(f"{name} = {shown(value)}: expected {expected}")
@@ -68,6 +62,26 @@ def real(name: str, value: object, expected: str = "a number") -> float:
     if not math.isfinite(result):
         raise wrong(name, value, f"{expected}, and finite")
     return result
+
+
+def several(low: float, high: float, count: int, expected: str, fewer: int = 0) -> Check:
+    """Return a check for so many numbers from low to high, kept as a tuple.
+
+    fewer: how many may be left out at the end; they are 0.
+    """
+    each = {"type": "number", "minimum": low, "maximum": high}
+
+    @accepts({"type": "array", "items": each, "minItems": count - fewer, "maxItems": count})
+    def check(name: str, value: Any) -> tuple[float, ...]:
+        fits = isinstance(value, (tuple, list, np.ndarray)) and 0 <= count - len(value) <= fewer
+        if not fits:
+            raise wrong(name, value, expected)
+        found = tuple(real(f"{name}[{i}]", item) for i, item in enumerate(value))
+        if not all(low <= number <= high for number in found):
+            raise wrong(name, value, expected)
+        return found + (0.0,) * (count - len(found))
+
+    return check
 
 
 def _bounds(low: float | None, above: float | None, high: float | None, unit: str) -> str:

@@ -109,16 +109,6 @@ def counted(count: int, thing: str) -> str:
     return f"{count} {thing}" if count == 1 else f"{count} {thing}s"
 
 
-def ordinal(number: int) -> str:
-    """Return a number as an ordinal, such as ``1st`` or ``12th``.
-
-    >>> [ordinal(number) for number in (2, 3, 12, 32)]
-    ['2nd', '3rd', '12th', '32nd']
-    """
-    teens = 10 < number % 100 < 20
-    return f"{number}{'th' if teens else {1: 'st', 2: 'nd', 3: 'rd'}.get(number % 10, 'th')}"
-
-
 def escaped(text: str) -> str:
     """Return a text in which everything that a terminal would obey, or not show, is escaped."""
     shown = UNSEEN.sub(lambda found: ascii(found[0])[1:-1], text)

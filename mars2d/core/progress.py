@@ -4,16 +4,12 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any, Protocol
+from typing import Any
 
-
-class Update(Protocol):
-    """Shows how many are done, and what else there is to say."""
-
-    def __call__(self, done: int, said: str = "", /) -> None:
-        """Show it."""
+Update = Callable[..., None]
+"""Shows how many are done, and what else there is to say, if anything."""
 
 
 @contextmanager

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 from mars2d.core.materials import Coefficient
 
@@ -15,54 +14,41 @@ NONE = "none"
 """The text that stands for None."""
 
 
-class Brackets(NamedTuple):
-    """A bracketed list: ``[1, 2]``, ``{ a = 1 }``.
-
-    opening: the bracket and the text before it. filled: a list that does not fit on one line has as
-    many items per line as fit, else one.
-    """
-
-    opening: str
-    items: Sequence[Node]
-    closing: str
-    filled: bool = False
+Node = str | list["Node"]
+"""A value as text, or a list of values."""
 
 
-Node = str | Brackets
-
-
-def laid_out(node: Node, indent: int = 0, width: int = WIDTH) -> str:
+def laid_out(node: Node, before: str = "", indent: int = 0, width: int = WIDTH) -> str:
     """Return a node as text: on one line if it fits, else broken after its opening bracket.
 
-    indent: of its first and last line, columns. A line is longer than `width` if a single item is.
+    before: what stands before it. indent: of its first and last line, columns. A list of tables has
+    one in a line, other lists as many items as fit. A line is longer than `width` if an item is.
 
-    >>> print(laid_out(Brackets("[", ["1.0", "2.0", "3.0"], "]", filled=True), width=14))
-    [
+    >>> print(laid_out(["1.0", "2.0", "3.0"], "x = ", width=14))
+    x = [
         1.0, 2.0,
         3.0,
     ]
     """
-    flat = _flat(node)
-    if isinstance(node, str) or indent + len(flat) < width:  # a comma may follow
-        return flat
-    lines: list[str] = []
-    inside = indent + 4
+    whole = before + flat(node)
+    if isinstance(node, str) or indent + len(whole) < width:  # a comma may follow
+        return whole
+    lines, inside = list[str](), indent + 4
     room = 0  # in the last line
-    for item in node.items:
-        text = laid_out(item, inside, width) + ","
-        if node.filled and "\n" not in text and len(text) < room:
+    for item in node:
+        text = laid_out(item, "", inside, width) + ","
+        if "\n" not in text and text[0] != "{" and len(text) < room:
             lines[-1] += " " + text
             room -= len(text) + 1
         else:
             lines.append(" " * inside + text)
             room = 0 if "\n" in text else width - inside - len(text)
-    return "\n".join([node.opening, *lines, " " * indent + node.closing])
+    return "\n".join([f"{before}[", *lines, " " * indent + "]"])
 
 
-def _flat(node: Node) -> str:
-    if isinstance(node, str):
-        return node
-    return node.opening + ", ".join(map(_flat, node.items)) + node.closing
+def flat(node: Node) -> str:
+    """Return a node as text in one line."""
+    return node if isinstance(node, str) else f"[{', '.join(map(flat, node))}]"
 
 
 def plain(value: Any) -> str:

@@ -14,14 +14,7 @@ from mars2d.core import checks
 from mars2d.core.arithmetic import norm, norms
 from mars2d.core.description import Description, entry, number
 from mars2d.core.errors import InputError, nearest
-from mars2d.core.plane import (
-    Outline,
-    bounds_of,
-    distance_to_ring,
-    inside_polygon,
-    lines_and_areas,
-    outside_polygon,
-)  # fmt: skip
+from mars2d.core.plane import Outline, lines_and_areas
 from mars2d.core.streams import stream
 from mars2d.scenario.starts import footprint
 
@@ -29,6 +22,8 @@ if TYPE_CHECKING:
     import shapely
 
     from mars2d.scenario.scenario import Scenario
+
+Float = NDArray[np.float64]
 
 BATCH = 64
 """How many places are tried at once."""
@@ -78,19 +73,29 @@ class RandomStarts(Description):
 
 
 class Room(NamedTuple):
-    """What is the same for all seeds: who is placed, discs that stand, and what else is there."""
+    """What is the same for all seeds: who is placed, where, and what else is there.
 
-    to_place: list[tuple[int, Rigid]]
+    to_place: the index of the entry, the body, and the radius of the circle round its pose that
+    holds it in any heading, metres. areas: of each entry, its corners' lowest x and y and their
+    spans (2, 1), metres, and the area less what lies outside of a workspace that robots can't
+    leave. discs: (k, 4), x, y, radius of those that stand, and -1. solid: what else stands.
+    """
+
+    to_place: list[tuple[int, Rigid, float]]
+    areas: list[tuple[Float, Float, shapely.Geometry]]
     discs: list[tuple[float, float, float, float]]
-    solid: shapely.STRtree | None
+    solid: shapely.STRtree
 
 
 def room_of(scenario: Scenario) -> Room:
     """Return the room for `random_starts`; InputError for names unknown, given twice, or tied."""
+    import shapely
+
     known, before = {body.name: body for body in scenario.bodies}, dict[str, str]()
     joints = [*scenario.joints, *(joint for prop in scenario.props for joint in prop.joints())]
     tied = {name for joint in joints for name in (joint.a, joint.b)}
-    to_place = []
+    edge = None if scenario.on_exit == "ignore" else scenario.workspace
+    to_place, areas = [], []
     for index, each in enumerate(scenario.random_starts):
         where = f"Scenario.random_starts[{index}]"
         names = each.bodies or [str(robot.name) for robot in scenario.robots]
@@ -103,17 +108,24 @@ def room_of(scenario: Scenario) -> Room:
             if name in tied:
                 raise InputError(f"{where}: a joint ties {name!r}; expected bodies without joints")
             before[name] = where
-        if each.area is None and scenario.workspace is None:
+            middle, radius = known[name].shape.bound
+            to_place.append((index, known[name], norm(*middle) + radius))
+        corners = each.area or scenario.workspace
+        if corners is None:
             raise InputError(f"{where}: expected an area, since the scenario has no workspace")
-        to_place += [(index, known[name]) for name in names]
-    placed = {body.name for _, body in to_place}
-    standing = [body for body in scenario.bodies if body.name not in placed]
+        area = shapely.Polygon(corners)
+        xmin, ymin, xmax, ymax = area.bounds
+        if edge is not None and each.area:
+            area = area.intersection(shapely.Polygon(edge))
+        shapely.prepare(area)
+        areas.append((np.array([[xmin], [ymin]]), np.array([[xmax - xmin], [ymax - ymin]]), area))
+    standing = [body for body in scenario.bodies if body.name not in before]
     discs = [(*body.bound[0], body.bound[1], -1.0) for body in standing if body.is_disc]
     solid = lines_and_areas(scenario.obstacles)
     solid += [footprint(body) for body in standing if not body.is_disc]
-    if solid:
-        import shapely
-    return Room(to_place, discs, shapely.STRtree(solid) if solid else None)
+    if edge is not None and scenario.on_exit == "wall":
+        solid.append(shapely.LinearRing(edge))
+    return Room(to_place, areas, discs, shapely.STRtree(solid))
 
 
 def poses_of(scenario: Scenario, room: Room, seed: int) -> dict[str, Triple]:
@@ -125,55 +137,39 @@ def poses_of(scenario: Scenario, room: Room, seed: int) -> dict[str, Triple]:
     rng = stream(seed, "random starts")
     for _ in range(ROUNDS):
         taken, poses = [*room.discs], dict[str, Triple]()
-        for which, body in room.to_place:
-            reach = _reach(body) + MARGIN
-            pose = _place(scenario, room.solid, which, reach, np.array(taken).reshape(-1, 4), rng)
-            if pose is None:
+        for which, body, needed in room.to_place:
+            starts, reach = scenario.random_starts[which], needed + MARGIN
+            heading = rng.uniform(-pi, pi) if starts.heading is None else starts.heading
+            x, y, radii, entries = np.array(taken).reshape(-1, 4).T
+            apart = radii + reach
+            apart[entries == which] = apart[entries == which].clip(starts.least_distance)
+            place = _place(room, which, reach, np.array([x, y, apart]), rng)
+            if place is None:
                 break
-            taken.append((*pose[:2], reach, which))
-            poses[body.name] = pose
+            taken.append((*place, reach, which))
+            poses[body.name] = (*place, float(heading))
         else:
             return poses
-    why = f"found no place in {ROUNDS} rounds for {body.name!r}, which needs {_reach(body):.3g} m"
+    why = f"found no place in {ROUNDS} rounds for {body.name!r}, which needs {needed:.3g} m"
     hint = "expected a larger area, fewer bodies or a smaller least_distance"
     raise InputError(f"Scenario.random_starts[{which}]: {why} round its pose; {hint}")
 
 
 def _place(
-    scenario: Scenario, solid: shapely.STRtree | None, which: int, reach: float,
-    taken: NDArray[np.float64], rng: np.random.Generator,
-) -> Triple | None:  # fmt: skip
-    """Return a pose at which no wall, obstacle or disc is within `reach` metres, or None.
+    room: Room, which: int, reach: float, taken: Float, rng: np.random.Generator
+) -> tuple[float, float] | None:
+    """Return a place at which no wall or obstacle is within `reach` metres, or None.
 
-    taken: (k, 4), x, y, radius of the discs and the index of their entry, -1 for none.
+    taken: (3, k), x, y of discs, and the least distance to each.
     """
-    starts = scenario.random_starts[which]
-    corners = np.array(starts.area or scenario.workspace)
-    edge = None if scenario.on_exit == "ignore" else scenario.workspace
-    xmin, xmax, ymin, ymax = bounds_of(corners)
-    heading = rng.uniform(-pi, pi) if starts.heading is None else starts.heading
-    apart = taken[:, 2] + reach
-    apart[taken[:, 3] == which] = apart[taken[:, 3] == which].clip(starts.least_distance)
+    import shapely
+
+    low, span, area = room.areas[which]
     for _ in range(BATCHES):
-        u, v = rng.random((2, BATCH))
-        x, y = xmin + (xmax - xmin) * u, ymin + (ymax - ymin) * v
-        gaps = norms(x[:, None] - taken[:, 0], y[:, None] - taken[:, 1]) - apart
-        free = inside_polygon(x, y, corners) & (gaps >= 0).all(axis=1)
-        if edge is not None:
-            free &= ~outside_polygon(x, y, np.array(edge))
-            if scenario.on_exit == "wall":
-                free &= distance_to_ring(x, y, np.array(edge)) >= reach
-        if solid is not None:
-            import shapely
-
-            free[solid.query(shapely.points(x, y), "dwithin", reach)[0]] = False
-        if free.any():
-            k = int(np.argmax(free))
-            return float(x[k]), float(y[k]), float(heading)
+        x, y = low + span * rng.random((2, BATCH))
+        free = shapely.contains_xy(area, x, y)
+        free &= (norms(x[:, None] - taken[0], y[:, None] - taken[1]) >= taken[2]).all(axis=1)
+        for place in zip(x[free].tolist(), y[free].tolist(), strict=True):
+            if not room.solid.query(shapely.points(*place), "dwithin", reach).size:
+                return place
     return None
-
-
-def _reach(body: Rigid) -> float:
-    """Return the radius of the circle round a body's pose that holds it in any heading, metres."""
-    middle, radius = body.shape.bound
-    return norm(*middle) + radius

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons.base import Addon
+from mars2d.bodies.colors import OBSTACLE, prop_colors
 from mars2d.bodies.joints.base import AttachedJoint, Joint
 from mars2d.bodies.props.base import Prop
 from mars2d.bodies.rigid import Rigid, Surface
@@ -417,6 +418,15 @@ class Scenario(Description):
         """The robots' colours, each its own or one of the animation's base colours."""
         base = self.animation.base_colors
         return tuple(robot.color or base[i % len(base)] for i, robot in enumerate(self.robots))
+
+    @cached_property
+    def body_colors(self) -> tuple[str, ...]:
+        """The colours of all robots, then of all props."""
+        return (*self.colors, *prop_colors(self.props))
+
+    def color_of(self, body: int) -> str:
+        """Return the colour of a body of a contact; obstacles have one in common."""
+        return OBSTACLE if body < 0 else self.body_colors[body]
 
 
 def index_among(field: str, kind: str, wanted: str | int, names: list[str]) -> int:

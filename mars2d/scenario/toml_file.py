@@ -23,7 +23,7 @@ from mars2d.scenario import serialize
 from mars2d.scenario.code_file import law_in, located
 from mars2d.scenario.controllers import Controller
 from mars2d.scenario.law_reference import Reference, seen_from
-from mars2d.scenario.pretty import NONE, WIDTH, Brackets, Node, comment, laid_out, plain, quoted
+from mars2d.scenario.pretty import NONE, WIDTH, Node, comment, flat, laid_out, plain, quoted
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import Place
@@ -118,11 +118,7 @@ class _Writer:
 
     def _line(self, part: Description, name: str, value: Any) -> str:
         """Return the line of a field, or the lines of a long list."""
-        node = self._node(part, name, value)
-        if isinstance(node, str):
-            return f"{name} = {node}"
-        wide = MAX_BYTES if node.opening == "{ " else WIDTH  # a table has one line
-        return laid_out(node._replace(opening=f"{name} = {node.opening}"), width=wide)
+        return laid_out(self._node(part, name, value), f"{name} = ")
 
     def _law(self, field: str, law: Law | str) -> str:
         """Return the line that names a law, or a comment that says why it is missing."""
@@ -150,15 +146,12 @@ class _Writer:
         place: where it stands.
         """
         if isinstance(value, Description):
-            head: list[Node] = [*_type(place, value)]
             fields = serialize.changed(value).items()
-            items: list[Node] = [
-                Brackets(f"{k} = ", [self._node(value, k, v)], "") for k, v in fields
-            ]
-            return Brackets("{ ", head + items, " }") if items else quoted(type(value).__name__)
+            items = [f"{k} = {flat(self._node(value, k, v))}" for k, v in fields]
+            inside = ", ".join([*_type(place, value), *items])
+            return f"{{ {inside} }}" if items else quoted(type(value).__name__)
         if isinstance(value, (list, tuple)):
-            of_parts = any(isinstance(item, Description) for item in value)
-            return Brackets("[", [self._plain(v, place) for v in value], "]", filled=not of_parts)
+            return [self._plain(item, place) for item in value]
         return plain(value)
 
 

@@ -1,7 +1,7 @@
 """The sensors of robots. A new one is a file here, and a line below."""
 
 from mars2d.core.quantity import ANGLE, COLOR, DISTANCE, FLAG, NUMBER, Quantity
-from mars2d.sensors.base import Sensor, Sighting, Surroundings
+from mars2d.sensors.base import Sensor, Sighting
 from mars2d.sensors.beacon import Beacon
 from mars2d.sensors.bumper import Bumper
 from mars2d.sensors.ground import Ground
@@ -13,6 +13,7 @@ from mars2d.sensors.proximity import Proximity
 from mars2d.sensors.range_bearing import RangeBearing
 from mars2d.sensors.range_finder import RangeFinder
 from mars2d.sensors.sonar_ring import SonarRing
+from mars2d.sensors.surroundings import Surroundings
 
 __all__ = [
     "ANGLE",

@@ -1,14 +1,14 @@
-"""The base of all sensors, and the part of the world that a sensor may ask."""
+"""The base of all sensors."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Sequence
 from functools import cached_property
 from math import inf, pi, sqrt
-from typing import Any, ClassVar, NamedTuple, Protocol, Self
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from mars2d.core import checks
 from mars2d.core.arithmetic import cosines_sines, steps_until
@@ -25,101 +25,16 @@ from mars2d.core.description import (
     wrong,
 )
 from mars2d.core.errors import InputError
-from mars2d.core.plane import Point
 from mars2d.core.quantity import NUMBER, Quantity
 from mars2d.core.scene import Scene
 from mars2d.core.streams import Random, Streams
 from mars2d.sensors.error_model import Imperfection
+from mars2d.sensors.surroundings import Surroundings
 
 Float = NDArray[np.float64]
-Int = NDArray[np.int64]
-
-NOTHING = -(2**31)
-"""The number of the body that a ray hits where it hits none; bodies are >= 0, obstacles < 0."""
 
 MAX_STEPS = 100_000
 """The most control steps between two measurements, and from a measurement to its arrival."""
-
-
-class Surroundings(Protocol):
-    """The questions that a sensor may ask of the world. Points are (x, y) [m] in its frame.
-
-    `ignore` is the index of the robot that asks: it never sees itself. Bodies are numbered robots
-    first, then props; obstacle k is -1 - k.
-    """
-
-    @property
-    def time(self) -> float:
-        """The simulated time, seconds."""
-
-    @property
-    def sampling_time(self) -> float:
-        """The time between control steps, seconds."""
-
-    @property
-    def pose(self) -> Float:
-        """The poses of all robots, (3, n)."""
-
-    @property
-    def prop_pose(self) -> Float:
-        """The poses of all props, (3, p)."""
-
-    @property
-    def addons(self) -> Any:
-        """The add-ons, as attributes by their names: an experiment may add things to measure."""
-
-    @property
-    def beacons(self) -> Mapping[str, Point]:
-        """Where the beacons are, by name."""
-
-    @property
-    def driven(self) -> Sequence[tuple[float, Float]]:
-        """The twists that the drives asked for in the last control step: (seconds, (3, n)) in turn.
-
-        A twist is (forward [m/s], left [m/s], spin [rad/s]), linear velocities along the axes of
-        the robot or, for a drive whose `frame` is "world", of the world. Empty at the start.
-        """
-
-    def distance(self, point: Point, limit: float, ignore: int) -> float:
-        """Return the distance to the nearest surface, metres; inf when beyond `limit`.
-
-        Negative inside a robot.
-        """
-
-    def nearby(self, point: Point, limit: float, ignore: int) -> Iterator[Point]:
-        """Yield, for each surface at most `limit` away, its nearest point (x, y)."""
-
-    def ray(self, start: Point, angle: float, length: float, ignore: int) -> float:
-        """Return how far a ray goes until the first surface, metres; inf when nothing is hit."""
-
-    def scans(self, poses: Float, bearings: Float, length: ArrayLike, ignore: ArrayLike) -> Float:
-        """Return how far rays of robots go, (m, k) metres; inf where nothing is hit.
-
-        poses: where each one's rays start, and which way it looks (3, m). bearings: of the rays
-        from there (k,) rad. length: of all rays, or (k,). ignore: the robots that ask (m,). A ray
-        that starts inside a robot or prop goes 0 m. Obstacles are outlines: within one of them a
-        ray goes on to its edge.
-        """
-
-    def sights(
-        self, poses: Float, bearings: Float, length: ArrayLike, ignore: ArrayLike
-    ) -> tuple[Float, Int]:
-        """Return how far rays go, as `scans`, and which body each hits, (m, k): NOTHING if none."""
-
-    def hidden(
-        self, start: Point, points: Float, bodies: ArrayLike, ignore: int
-    ) -> NDArray[np.bool_]:
-        """Return whether something stands between `start` and points (k, 2).
-
-        bodies: (k,) or one: the body that each point belongs to, which does not hide it, or
-        NOTHING.
-        """
-
-    def color(self, body: int) -> str:
-        """Return the colour of a body or obstacle, ``#rrggbb``."""
-
-    def ground(self, point: Point) -> tuple[float, float, float]:
-        """Return the colour of the floor at a point: red, green and blue from 0 to 1."""
 
 
 class Sighting(NamedTuple):
@@ -354,10 +269,6 @@ class Sensor(Stateful):
 
     # -- when it measures --------------------------------------------------------------------
 
-    def at_work(self, sampling_time: float) -> Self:
-        """Return a copy that measures in a world of this sampling time, seconds."""
-        return self.live(_interval=self.period(sampling_time) * sampling_time)
-
     def period(self, sampling_time: float) -> int:
         """Return how many control steps lie between two measurements."""
         return 1 if self.rate is None else round(1 / (self.rate * sampling_time))
@@ -428,10 +339,6 @@ class Sensor(Stateful):
         return Imperfection(
             self.key, self.quantities, noise, resolution, self.outliers, self.dropouts, top
         )
-
-    @property
-    def _perfect(self) -> bool:
-        return self._imperfection.none
 
     def measured(self, reading: Any, rng: Random) -> Any:
         """Return a perfect reading with the errors of the device, all but the latency.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from math import inf, pi
 from typing import Any, ClassVar, NoReturn
 
@@ -10,14 +9,14 @@ import numpy as np
 
 from mars2d.core import checks
 from mars2d.core.description import entry, flag, number
-from mars2d.core.errors import InputError, LawError, UnknownNameError, nearest, shown
+from mars2d.core.errors import InputError, UnknownNameError, nearest
 from mars2d.core.interfaces import RobotLike
-from mars2d.core.plane import Point
 from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene, faded
 from mars2d.core.streams import Random
 from mars2d.geometry.bearings import BEARING, RANGE, draw_sighted, hold_missing, sighted
-from mars2d.sensors.base import NOTHING, Float, Scanner, Sighting, Surroundings, sight_angle
+from mars2d.sensors.base import Float, Scanner, Sighting, sight_angle
+from mars2d.sensors.surroundings import NOTHING, Surroundings
 
 FAR = 50.0
 """A field of view that reaches further is not drawn to its end, metres."""
@@ -31,30 +30,6 @@ class Sightings(dict[str, Sighting]):
 
     def __missing__(self, name: str) -> NoReturn:
         raise UnknownNameError(f"there is no beacon {name!r}{nearest(name, self)}")
-
-
-def _known(beacons: Mapping[str, Point]) -> list[str]:
-    """Return the names of the beacons in order. Raises LawError if one is no text."""
-    for name in beacons:
-        if not isinstance(name, str):
-            raise LawError(
-                f"a beacon is called {shown(name)}: expected of beacons() of an add-on points "
-                "(x, y) by name, such as {'lamp': (1.0, 2.0)}"
-            )
-    return sorted(beacons)
-
-
-def _place(name: str, beacons: Mapping[str, Point]) -> Point:
-    """Return where an add-on says that a beacon is; infinitely far away if it is gone."""
-    if name not in beacons:
-        return inf, inf
-    try:
-        return checks.point(name, beacons[name])
-    except InputError:
-        raise LawError(
-            f"beacon {name!r} is at {shown(beacons[name])}: expected of beacons() of an add-on "
-            "points (x, y) by name"
-        ) from None
 
 
 class Beacon(Scanner):
@@ -84,7 +59,7 @@ class Beacon(Scanner):
 
     def on_start(self, robot: RobotLike, world: Surroundings, rng: np.random.Generator) -> None:  # noqa: ARG002
         """Look the beacons up. Raises InputError if there are none, or none of such a name."""
-        known = _known(world.beacons)
+        known = sorted(world.beacons)
         if not known:
             raise InputError(
                 f"{robot.name} looks for beacons and there are none: add "
@@ -100,15 +75,15 @@ class Beacon(Scanner):
 
     def scan(self, poses: Float, robots: list[int], world: Surroundings) -> Float:
         """Return rows (m, k, 2) of range and bearing, (inf, nan) for a beacon that is not seen."""
-        there, sight = world.beacons, None if self.through_walls else world
-        points = np.array([_place(name, there) for name in self._beacons])
+        there, sight = world.beacons, None if self.through_walls else world  # some may be gone
+        points = np.array([there.get(name, (inf, inf)) for name in self._beacons])
         nobody = np.full(len(points), NOTHING)
         return sighted(poses, points, self.range, self.field_of_view, nobody, robots, sight)
 
     def measured(self, reading: Float, rng: Random) -> Float:
         """Return perfect readings with errors; a beacon that is not seen stays unseen."""
         rows: Float = super().measured(reading, rng)
-        return rows if self._perfect else hold_missing(rows, reading)
+        return rows if self._imperfection.none else hold_missing(rows, reading)
 
     def shown(self, reading: Float) -> Sightings:
         """Return the sighting of each beacon, by name."""

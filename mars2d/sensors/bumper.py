@@ -16,7 +16,8 @@ from mars2d.core.interfaces import RobotLike
 from mars2d.core.plane import WITHIN
 from mars2d.core.quantity import FLAG, Quantity
 from mars2d.core.scene import Scene, faded
-from mars2d.sensors.base import Float, Sensor, Surroundings, sight_angle
+from mars2d.sensors.base import Float, Sensor, sight_angle
+from mars2d.sensors.surroundings import Surroundings
 
 LIT = "#d55e00"
 """The colour of a set flag."""
@@ -67,7 +68,8 @@ class Bumper(Sensor):
             # The point is where it was then: so must be the robot.
             share = min(max(1 - (world.time - float(contact["time"])) / step, 0.0), 1.0)
             pose = self.placed((1 - share) * self._pose + share * robot.pose)
-            bearing = _bearing(contact["point"].tolist(), pose.tolist())
+            (px, py), (x, y, theta) = contact["point"].tolist(), pose.tolist()
+            bearing = (angle_of(py - y, px - x) - theta + pi) % (2 * pi) - pi
             if abs(bearing) <= WITHIN * self.field_of_view / 2:
                 width = self.field_of_view / self.sectors
                 sector = floor((bearing - float(self.angles[0])) / width + 0.5)
@@ -100,8 +102,3 @@ class Bumper(Sensor):
                 scene.line(points, stroke=LIT, width=4.0)
             else:
                 scene.line(points, stroke=faded(color, 0.45), width=1.5)
-
-
-def _bearing(point: list[float], pose: list[float]) -> float:
-    """Return the bearing of a point from a pose, in [-pi, pi)."""
-    return (angle_of(point[1] - pose[1], point[0] - pose[0]) - pose[2] + pi) % (2 * pi) - pi

@@ -10,7 +10,8 @@ from mars2d.core.errors import LawError, shown
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.quantity import COLOR, Quantity
 from mars2d.core.scene import Scene, color_of
-from mars2d.sensors.base import Float, Sensor, Surroundings
+from mars2d.sensors.base import Float, Sensor
+from mars2d.sensors.surroundings import Surroundings
 
 
 class Ground(Sensor):

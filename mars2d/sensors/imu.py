@@ -8,32 +8,19 @@ from typing import Any, ClassVar
 import numpy as np
 
 from mars2d.core.arithmetic import cosine_sine, norm
-from mars2d.core.description import accepts, entry, numbers_schema, real, wrong
+from mars2d.core.description import entry, several
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene
-from mars2d.sensors.base import Float, Sensor, Surroundings, spread
+from mars2d.sensors.base import Float, Sensor, spread
+from mars2d.sensors.surroundings import Surroundings
 
 ARROW = 0.2
 """The length of an arrow for an acceleration of 1 m/s^2, metres."""
 
 
-@accepts(numbers_schema(-1e6, 1e6, 3, 3))
-def _three(name: str, value: object) -> tuple[float, float, float]:
-    expected = "three numbers, for (ax, ay) [m/s^2] and omega [rad/s]"
-    if isinstance(value, (tuple, list, np.ndarray)) and len(value) == 3:
-        ax, ay, omega = (real(f"{name}[{i}]", item) for i, item in enumerate(value))
-        if max(abs(ax), abs(ay), abs(omega)) <= 1e6:
-            return ax, ay, omega
-    raise wrong(name, value, expected)
-
-
-@accepts(numbers_schema(0, 1e6, 3, 3))
-def _three_spreads(name: str, value: object) -> tuple[float, float, float]:
-    three = _three(name, value)
-    if min(three) < 0:
-        raise wrong(name, value, "three numbers >= 0, for (ax, ay) and omega")
-    return three
+_three = several(-1e6, 1e6, 3, "three numbers, for (ax, ay) [m/s^2] and omega [rad/s]")
+_three_spreads = several(0.0, 1e6, 3, "three numbers >= 0, for (ax, ay) and omega")
 
 
 class Imu(Sensor):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from itertools import groupby
 from math import isnan, nan, pi
 from typing import Any, ClassVar
 
@@ -13,7 +14,8 @@ from mars2d.core.description import integer, number
 from mars2d.core.quantity import COLOR, Quantity
 from mars2d.core.scene import Scene, color_of, faded, rgb
 from mars2d.geometry.bearings import beam_angles
-from mars2d.sensors.base import NOTHING, Float, Scanner, Surroundings, sight_angle
+from mars2d.sensors.base import Float, Scanner, sight_angle
+from mars2d.sensors.surroundings import NOTHING, Surroundings
 
 NEAR, FAR = 0.07, 0.085
 """The line of pixels is drawn between these shares of the range."""
@@ -53,27 +55,12 @@ class LineCamera(Scanner):
         near, far = NEAR * self.range, FAR * self.range
         scene.sector(placed, near, self.field_of_view, fill=faded(color, 0.1))
         step = self.field_of_view / max(self.pixels - (self.field_of_view < 2 * pi), 1)
-        names = [_name(pixel) for pixel in np.asarray(reading).tolist()]
-        for first, last, name in _runs(names):
+        seen = np.asarray(reading).tolist()
+        names = [None if any(map(isnan, pixel)) else color_of(pixel) for pixel in seen]
+        for name, pixels in groupby(range(len(names)), names.__getitem__):
             if name is not None:
-                angles = theta + self.angles[first : last + 1]
+                angles = theta + self.angles[[*pixels]]
                 arc = np.concatenate([angles - step / 2, angles[-1:] + step / 2])
                 rim = np.column_stack(cosines_sines(arc))
                 strip = np.vstack([near * rim, far * rim[::-1]]) + np.array([x, y])
                 scene.polygon(strip, fill=name)
-
-
-def _name(pixel: list[float]) -> str | None:
-    """Return a pixel's colour as ``#rrggbb``, None if it sees nothing."""
-    return None if any(map(isnan, pixel)) else color_of(pixel)
-
-
-def _runs(names: list[str | None]) -> list[tuple[int, int, str | None]]:
-    """Return neighbouring pixels of the same colour: (first, last, colour)."""
-    runs: list[tuple[int, int, str | None]] = []
-    for k, name in enumerate(names):
-        if runs and runs[-1][2] == name:
-            runs[-1] = (runs[-1][0], k, name)
-        else:
-            runs.append((k, k, name))
-    return runs

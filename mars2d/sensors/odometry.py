@@ -8,24 +8,15 @@ from typing import Any, ClassVar
 import numpy as np
 
 from mars2d.core.arithmetic import cosine_sine
-from mars2d.core.description import Schema, accepts, choice, entry, number, real, wrong
+from mars2d.core.description import choice, entry, number, several, wrong
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene
 from mars2d.geometry.dead_reckoning import draw_pose, sinc
-from mars2d.sensors.base import Float, Sensor, Surroundings
+from mars2d.sensors.base import Float, Sensor
+from mars2d.sensors.surroundings import Surroundings
 
-SCALE: Schema = {"type": "number", "exclusiveMinimum": 0, "maximum": 10}
-
-
-@accepts({"type": "array", "items": SCALE, "minItems": 2, "maxItems": 2})
-def _scales(name: str, value: object) -> tuple[float, float]:
-    expected = "two scales (left, right), each > 0 and <= 10"
-    if isinstance(value, (tuple, list, np.ndarray)) and len(value) == 2:
-        left, right = (real(f"{name}[{i}]", item) for i, item in enumerate(value))
-        if 0 < left <= 10 and 0 < right <= 10:
-            return left, right
-    raise wrong(name, value, expected)
+_scales = several(1e-9, 10.0, 2, "two scales (left, right), each >= 1e-9 and <= 10")
 
 
 class Odometry(Sensor):
@@ -98,11 +89,8 @@ class Odometry(Sensor):
 
     def _roll(self, travel: list[float], rng: np.random.Generator) -> None:
         """Add the true travels of the wheels (left, right, across), metres."""
-        left, right, across = (
-            travel[0] * self.wheel_scale[0],
-            travel[1] * self.wheel_scale[1],
-            travel[2],
-        )
+        left, right = (s * scale for s, scale in zip(travel, self.wheel_scale, strict=False))
+        across = travel[2]
         if self.drift:
             errors = rng.standard_normal(3).tolist()
             off = [self.drift * sqrt(abs(s)) * n for s, n in zip(travel, errors, strict=True)]

@@ -10,7 +10,8 @@ from mars2d.core.interfaces import RobotLike
 from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene
 from mars2d.geometry.dead_reckoning import draw_pose
-from mars2d.sensors.base import Float, Sensor, Surroundings
+from mars2d.sensors.base import Float, Sensor
+from mars2d.sensors.surroundings import Surroundings
 
 
 class Pose(Sensor):

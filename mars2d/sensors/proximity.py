@@ -14,7 +14,8 @@ from mars2d.core.interfaces import RobotLike
 from mars2d.core.plane import WITHIN
 from mars2d.core.quantity import FLAG, Quantity
 from mars2d.core.scene import Scene, faded
-from mars2d.sensors.base import Float, Scanner, Surroundings, sight_angle
+from mars2d.sensors.base import Float, Scanner, sight_angle
+from mars2d.sensors.surroundings import Surroundings
 
 
 class Proximity(Scanner):

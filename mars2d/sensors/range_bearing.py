@@ -12,7 +12,8 @@ from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene, faded
 from mars2d.core.streams import Random
 from mars2d.geometry.bearings import BEARING, RANGE, draw_sighted, hold_missing, sighted
-from mars2d.sensors.base import Float, Scanner, Sighting, Surroundings, sight_angle
+from mars2d.sensors.base import Float, Scanner, Sighting, sight_angle
+from mars2d.sensors.surroundings import Surroundings
 
 
 class RangeBearing(Scanner):
@@ -46,7 +47,7 @@ class RangeBearing(Scanner):
     def measured(self, reading: Float, rng: Random) -> Float:
         """Return perfect readings with errors; a robot that is not seen stays unseen."""
         rows: Float = super().measured(reading, rng)
-        if self._perfect:
+        if self._imperfection.none:
             return rows
         rows = hold_missing(rows, reading)
         return rows if self.identity else _nearest_first(rows)

@@ -13,7 +13,8 @@ from mars2d.core.description import integer, number
 from mars2d.core.quantity import DISTANCE, Quantity
 from mars2d.core.scene import Scene, faded
 from mars2d.geometry.bearings import beam_angles
-from mars2d.sensors.base import Fan, Float, Scanner, Surroundings, sight_angle
+from mars2d.sensors.base import Fan, Float, Scanner, sight_angle
+from mars2d.sensors.surroundings import Surroundings
 
 
 class RangeFinder(Scanner):

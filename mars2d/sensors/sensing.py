@@ -15,7 +15,8 @@ from mars2d.core.arrays import sealed
 from mars2d.core.errors import LawError, UnknownNameError, nearest, shown
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.usercode import called
-from mars2d.sensors.base import Sensor, Surroundings
+from mars2d.sensors.base import Sensor
+from mars2d.sensors.surroundings import Surroundings
 
 
 class Sense(SimpleNamespace):
@@ -70,7 +71,8 @@ class Device:
     ) -> None:
         """Take the sensor, its robot and surroundings; stream: makes a random stream of a name."""
         self.described = sensor
-        self.sensor = sensor.at_work(world.sampling_time)
+        self.period = sensor.period(world.sampling_time)
+        self.sensor = sensor.live(_interval=self.period * world.sampling_time)
         self.key, self.robot = sensor.key, robot.index
         self.reading: Any = None
         self._shown: Any = None  # the value that a law finds
@@ -79,7 +81,6 @@ class Device:
         sense: Sense = robot.sense
         sense._names.append(self.key)
         self.readings = vars(sense)
-        self.period = sensor.period(world.sampling_time)
         self.age = sensor.age(world.sampling_time)
         self._on_its_way: deque[tuple[int, Any]] = deque()
         self.follows = type(sensor).on_step is not Sensor.on_step

@@ -15,7 +15,8 @@ from mars2d.core.plane import WITHIN, Point, up_to
 from mars2d.core.quantity import DISTANCE, Quantity
 from mars2d.core.scene import Scene, faded
 from mars2d.geometry.bearings import beam_angles
-from mars2d.sensors.base import Fan, Float, Scanner, Surroundings, sight_angle
+from mars2d.sensors.base import Fan, Float, Scanner, sight_angle
+from mars2d.sensors.surroundings import Surroundings
 
 
 class SonarRing(Scanner):

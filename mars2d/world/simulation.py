@@ -23,13 +23,13 @@ from mars2d.record.columns import DiskError
 from mars2d.record.contact import met, met_or_parted
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.sensing import Device, Sensing
+from mars2d.sensors.surroundings import Surroundings
 from mars2d.world.channel import Channel
 from mars2d.world.laws import Laws, refuse, robot_command, team_command
 from mars2d.world.operator import Operator
 from mars2d.world.record import Record
 from mars2d.world.room import Room
 from mars2d.world.state import Addons, Hooks, State
-from mars2d.world.surroundings import Around
 from mars2d.world.views import VIEWS, Mind, PropView, RobotView
 
 Float = NDArray[np.float64]
@@ -173,9 +173,9 @@ class Simulation(State):
         return readings
 
     @cached_property
-    def surroundings(self) -> Around:
+    def surroundings(self) -> Surroundings:
         """What answers sensors and add-ons."""
-        return Around(self)
+        return Surroundings(self)
 
     def draw_addons(self, scene: Scene) -> None:
         """Let the add-ons draw the world as it is now."""
@@ -404,21 +404,17 @@ class Simulation(State):
         self.drives.renew({str(robot.name): robot.drive for robot in scenario.robots})
         there = {key: addon for key, addon in vars(self.addons).items() if key in same}
         self._take_scenario(there, control)
-        if moved is None:
-            self.surroundings.renew()
-        else:
+        if moved is not None:
             self.move(moved)
 
     def move(self, moved: Mapping[int, tuple[float, float, float]]) -> None:
         """Go on with some bodies standing still at other poses, by index."""
         self.engine = self.engine.changed(self.scenario, moved)
         self._take_engine()
-        self.surroundings.renew()
 
     def resume(self) -> None:
         """Go on with an engine that was put here, also from within a step of the one before."""
         for array in (self.command, self.effort, self.contacts):  # copies can be written
             locked(array)
         self._take_engine()
-        self.surroundings.renew()
         self._stepping = False

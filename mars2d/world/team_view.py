@@ -17,11 +17,11 @@ from mars2d.record.frame import Frame
 from mars2d.record.interventions import leaps_of
 from mars2d.record.recorder import History
 from mars2d.scenario.scenario import Scenario
+from mars2d.sensors.surroundings import Surroundings
 from mars2d.world.fork import forked
 from mars2d.world.record import Record
 from mars2d.world.simulation import Simulation
 from mars2d.world.state import Addons, Uncopied
-from mars2d.world.surroundings import Around
 from mars2d.world.views import PositionsView, PropView, RobotView, alone, unknown, unseen
 
 Float = NDArray[np.float64]
@@ -123,7 +123,7 @@ class WorldView(Uncopied):
     """The props."""
     addons: Addons = through("_simulation.addons")
     """The add-ons by name: ``world.addons.map``."""
-    surroundings: Around = through("_simulation.surroundings")
+    surroundings: Surroundings = through("_simulation.surroundings")
     """Answers sensors and add-ons: rays, distances, lines of sight, beacons."""
     rng: np.random.Generator = through("_simulation.rng")
     """The random stream of the team's law."""

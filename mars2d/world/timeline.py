@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
+from copy import copy
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -29,11 +30,6 @@ if TYPE_CHECKING:
 
 NEVER = sys.maxsize
 """A row that no run reaches."""
-
-OF_A_RUN = (
-    "world", "experiment", "_past", "branches", "row", "_lines", "_errors", "_count",
-)  # fmt: skip
-"""The attributes of a timeline that start again with a run."""
 
 
 class Timeline:
@@ -63,7 +59,7 @@ class Timeline:
     ) -> None:
         self._log = log
         self._watchers = watchers
-        self._earlier: list[dict[str, Any]] = []  # runs in which hands did something
+        self._earlier: list[Timeline] = []  # those of runs in which hands did something
         self._begin(experiment)
         with suppress(LawError):  # of a sensor at the start: it is kept as `error`
             self._observe()
@@ -74,10 +70,9 @@ class Timeline:
         A run in which hands did something is kept, with its branches, as one of `others`.
         """
         again = self.experiment.reopened() if experiment is None else experiment
-        before = self._run if self.touched else None
+        before = [copy(self)] if self.touched else []
         self._begin(again)
-        if before is not None:
-            self._earlier.append(before)
+        self._earlier += before
         self._observe()
 
     def _begin(self, experiment: Experiment) -> None:
@@ -141,7 +136,7 @@ class Timeline:
         """
         others = [*self.branches]
         for run in self._earlier:
-            others += [run["world"], *run["branches"]]
+            others += [run.world, *run.branches]
         return replace(_closed(self.world), branches=tuple(_closed(world) for world in others))
 
     @property
@@ -158,11 +153,6 @@ class Timeline:
     def changed(self) -> bool:
         """Whether hands changed this run or one of `others`; to drive a robot is no change."""
         return any(world.operator.log for world in (self.world, *self.others))
-
-    @property
-    def _run(self) -> dict[str, Any]:
-        """What belongs to this run alone."""
-        return {name: vars(self)[name] for name in OF_A_RUN}
 
     @property
     def recorded(self) -> Record:
@@ -393,7 +383,7 @@ class Timeline:
     @property
     def others(self) -> list[World]:
         """The worlds that can be shown: those of other branches, then those of earlier runs."""
-        return [*self.branches, *(run["world"] for run in self._earlier)]
+        return [*self.branches, *(run.world for run in self._earlier)]
 
     def show(self, other: World) -> None:
         """Go to one of `others`, at the same row if it has it."""
@@ -411,10 +401,9 @@ class Timeline:
 
     def _show_run(self, other: World) -> None:
         """Go to an earlier run; this one becomes one of them."""
-        run = next(run for run in self._earlier if run["world"] is other)
-        self._earlier.remove(run)
-        self._earlier.append(self._run)
-        vars(self).update(run)
+        run = next(run for run in self._earlier if run.world is other)
+        others = [each for each in self._earlier if each is not run]
+        vars(self).update(vars(run), _earlier=[*others, copy(self)])
         self._write()
 
     def parted(self, other: World) -> int:

@@ -293,13 +293,10 @@ class RobotView(_Body):
         """The other robots that ``Scenario.neighbours`` makes its neighbours now."""
         indices = self._world.neighbour_indices(self._index)
         if indices is not self._listed[0]:
-            self._listed = indices, tuple(self._neighbour_at(j) for j in indices)
+            for j in {*indices} - self._found.keys():
+                self._found[j] = self._neighbour(self._world, j, self._index)
+            self._listed = indices, tuple(self._found[j] for j in indices)
         return self._listed[1]
-
-    def _neighbour_at(self, index: int) -> Neighbour:
-        if index not in self._found:
-            self._found[index] = self._neighbour(self._world, index, self._index)
-        return self._found[index]
 
     @property
     def _readings(self) -> str:

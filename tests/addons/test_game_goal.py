@@ -78,7 +78,7 @@ def test_the_evaders_have_won_when_too_many_are_safe():
 
 def test_the_hunters_have_won_when_they_have_as_many_as_they_want():
     world = finished(race([0.0, 0.0], 1.0, goal=None, wanted=1, capture=0.7))
-    assert world.over_message == "red catches b0, the 1st of 2, after 3.6 s: guard wins"
+    assert world.over_message == "red catches b0, number 1 of 2, after 3.6 s: guard wins"
     assert world.addons.game.score == {"guard": 1, "attacker": 1}
     few = finished(race([0.0, 0.0], 0.0, goal=None, wanted=1))
     assert few.over_message == "2 of 2 were not caught in 10 s: attacker wins"

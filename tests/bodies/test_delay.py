@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mars2d import Holonomic, Robot, Scenario, World
+from mars2d import Scenario, World
 from mars2d.bodies.delay import DelayLine
 
 
@@ -28,22 +28,6 @@ def test_what_is_in_effect_was_issued_a_delay_ago(delay, sampling_time, count):
             issued = np.floor((middle - delay) / sampling_time)
             assert command[0, 0] == max(issued + 1, 0)
             time += duration
-
-
-@pytest.mark.parametrize("delay", [0.0, 0.1, 0.25, 0.3, 1.0, 1.05, 2.7])
-def test_a_robot_moves_by_the_delayed_command_at_every_sampling_time(delay):
-    scenario = Scenario(
-        robots=[Robot(drive=Holonomic(max_linear_speed=10))], workspace=None, command_delay=delay
-    )
-    world = World(scenario)
-    speeds = np.random.default_rng(0).uniform(-1, 1, 40)
-    for speed in speeds:
-        world.step([[speed], [0]])
-    record = world.record
-    for k, time in enumerate(record.time):
-        # Command j works from 0.1 j + delay on, for 0.1 s.
-        begun = np.clip(time - delay - 0.1 * np.arange(40), 0, 0.1)
-        assert record.pose[k, 0, 0] == pytest.approx(speeds @ begun, abs=1e-9)
 
 
 @given(

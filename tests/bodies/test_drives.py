@@ -318,9 +318,6 @@ def test_robots_move_by_what_was_commanded_their_dead_time_and_the_delay_ago(dea
             assert way == pytest.approx(speeds[:, robot] @ begun, abs=1e-9)
 
 
-# -- records --------------------------------------------------------------------------------
-
-
 # -- bad input ------------------------------------------------------------------------------
 
 

@@ -1,9 +1,10 @@
-"""The command line as a student types it: real processes, their output and exit codes."""
+"""The command line as a student types it: its output and exit codes."""
 
 import json
 import subprocess
 import sys
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +13,14 @@ import mars2d
 from mars2d.cli import command_line as cli
 from tests.cases import each_case
 from tests.processes import PATIENCE, mars, wait_until
+
+
+@pytest.fixture
+def typed(tmp_path, monkeypatch, capsys):
+    """Return a function that runs a command in an empty folder: exit code, stdout, stderr."""
+    monkeypatch.chdir(tmp_path)
+    return lambda *words: (cli.main([*map(str, words)]), *capsys.readouterr())
+
 
 HEAD = "import numpy as np\nfrom mars2d import *\nfrom mars2d.addons import Map\n"
 
@@ -30,11 +39,10 @@ def test_demo_without_a_display_makes_a_picture_and_a_film_and_says_where(tmp_pa
         assert film.n_frames > 50
 
 
-def test_run_prints_its_outcome_as_one_line_of_json(tmp_path):
-    done = mars("run", "random_walk", "--headless", "--stop-time", 20, "--json", cwd=tmp_path)
-    assert done.returncode == 0, done.stderr
-    assert done.stdout.count("\n") == 1
-    outcome = json.loads(done.stdout)
+def test_run_prints_its_outcome_as_one_line_of_json(typed):
+    code, out, err = typed("run", "random_walk", "--headless", "--stop-time", 20, "--json")
+    assert (code, err, out.count("\n")) == (0, "", 1)
+    outcome = json.loads(out)
     record = mars2d.run("random_walk", stop_time=20)
     assert outcome["ticks"] == 20
     assert outcome["time"] == 20.0
@@ -46,14 +54,13 @@ def test_run_prints_its_outcome_as_one_line_of_json(tmp_path):
     assert outcome["wall_s"] > 0
 
 
-def test_set_overrides_fields_and_parameters(tmp_path):
-    done = mars(
+def test_set_overrides_fields_and_parameters(typed):
+    code, *_ = typed(
         "run", "follow_the_leader", "--headless", "--stop-time", 1, "--record", "a.npz",
         "--set", "followers=2", "--set", "robots.*.diameter=0.2", "--set", "sampling_time=0.5",
-        cwd=tmp_path,
     )  # fmt: skip
-    assert done.returncode == 0, done.stderr
-    record = mars2d.load(tmp_path / "a.npz")
+    assert code == 0
+    record = mars2d.load("a.npz")
     assert [robot.diameter for robot in record.scenario.robots] == [0.2] * 3
     assert record.time.tolist() == [0.0, 0.5, 1.0]
 
@@ -71,35 +78,35 @@ def test_check_says_where_a_record_departs(tmp_path, capsys):
 
 
 @pytest.mark.slow
-def test_check_describes_an_experiment_and_tries_its_laws(tmp_path):
-    done = mars("check", "own_sensor_and_addon", cwd=tmp_path)
-    assert done.returncode == 0, done.stderr
+def test_check_describes_an_experiment_and_tries_its_laws(typed):
+    code, out, _ = typed("check", "own_sensor_and_addon")
+    assert code == 0
     for word in ("Light seekers", "eyes", "lamps", "10 m x 10 m", "sound"):
-        assert word in done.stdout
+        assert word in out
 
 
+@pytest.mark.slow
 def test_doctor_finds_the_installation_sound(tmp_path):
-    done = mars("doctor", cwd=tmp_path)
+    done = mars("doctor", cwd=tmp_path)  # a process of its own, as its standard files are looked at
     assert done.returncode == 0, done.stdout
     assert "pymunk" in done.stdout
     assert "NO " not in done.stdout
 
 
-def test_list_names_every_part_with_one_line(tmp_path):
-    done = mars("list", cwd=tmp_path)
+def test_list_names_every_part_with_one_line(typed):
+    _, out, _ = typed("list")
     for name in ("random_walk", "Unicycle", "Holonomic", "Proximity", "Map"):
-        [line] = [x for x in done.stdout.splitlines() if x.split()[:1] == [name]]
+        [line] = [x for x in out.splitlines() if x.split()[:1] == [name]]
         assert len(line.split()) > 4
 
 
-def test_what_was_recorded_before_a_law_failed_is_kept(tmp_path):
-    (tmp_path / "late.py").write_text(
+def test_what_was_recorded_before_a_law_failed_is_kept(typed):
+    Path("late.py").write_text(
         HEAD + "scenario = Scenario()\n"
         "def control(world):\n    return 0.1, 1 / (10 - world.iteration)\n"
     )
-    done = mars("run", "late.py", "--headless", "--record", "kept.npz", cwd=tmp_path)
-    assert done.returncode == 2
-    record = mars2d.load(tmp_path / "kept.npz")
+    assert typed("run", "late.py", "--headless", "--record", "kept.npz")[0] == 2
+    record = mars2d.load("kept.npz")
     assert len(record) == 10
     assert "ZeroDivisionError" in record.over_message
     assert np.isfinite(record.pose).all()
@@ -223,6 +230,7 @@ def test_checks_that_fail_lose_no_data(roll, tmp_path, capsys, options):
     roll.write_text(ROLL.replace('1, float("nan")', "1, record.contacts['time'][0]"))
     paths = [tmp_path / name for name in ("a.npz", "a.png", "a.gif")]
     outputs = ["--record", str(paths[0]), "--figure", str(paths[1]), "--video", str(paths[2])]
+    outputs += ["--size", "160x120"]
     assert cli.main(["run", str(roll), "--headless", *outputs, *options]) == 2
     shown = capsys.readouterr()
     assert shown.err.startswith("mars2d: roll.py, line 16: checks raised IndexError")

@@ -197,12 +197,15 @@ class Reader:
         return printed.getvalue() + errors
 
 
-SLOW = {"README", "addons", "films", "laws", "logs", "own_sensor_and_addon", "paper", "window"}
+SLOW = {
+    "README", "addons", "data", "films", "first_experiment", "laws", "logs", "own_sensor_and_addon",
+    "paper", "window",
+}  # fmt: skip
 """Documents that take a second and more."""
 
 NIGHTLY = {
     "clusters", "commands", "communication", "contact", "editors", "figures", "information",
-    "sensing", "speed", "studies", "tournaments",
+    "pursuit", "sensing", "speed", "studies", "tournaments",
     *({path.stem for path in EXPERIMENTS} - {"formation", "random_walk"}),
     *(path.stem for path in PURSUIT),
 }  # fmt: skip

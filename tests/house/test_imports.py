@@ -34,6 +34,11 @@ HEAVY = {"pygame", "matplotlib", "scipy", "shapely", "ezdxf", "wasmtime", "yaml"
 FILES = sorted(path for path in PACKAGE.rglob("*.py") if "examples" not in path.parts)
 
 
+MODULES = {
+    ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts).removesuffix(".__init__")
+    for path in FILES
+}
+
 ROOMS = sorted({room for layer in LAYERS for room in layer})
 
 
@@ -50,18 +55,13 @@ def _imports(tree: ast.AST, kind: str = "module") -> Iterator[tuple[str, str]]:
             assert node.level == 0, "imports are absolute"
             assert node.module is not None
             for alias in node.names:
-                module = node.module
-                folder = PACKAGE.parent / module.replace(".", "/")
-                is_module = any(
-                    (folder / place).exists()
-                    for place in (f"{alias.name}.py", f"{alias.name}/__init__.py")
-                )
-                yield (f"{module}.{alias.name}" if is_module else module), kind
+                whole = f"{node.module}.{alias.name}"
+                yield (whole if whole in MODULES else node.module), kind
         elif isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test):
             yield from _imports(node, "typing")
-        elif isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)):
+        elif isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
             yield from _imports(node, "lazy")
-        else:
+        elif isinstance(node, (ast.stmt, ast.excepthandler)):  # expressions import nothing
             yield from _imports(node, kind)
 
 

@@ -6,6 +6,7 @@ import ast
 import re
 from collections import Counter
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 from mars2d.physics import islands
@@ -20,9 +21,14 @@ def text_of(name: str) -> str:
     return (FOLDER / name).read_text(encoding="utf-8")
 
 
-def defined(text: str) -> Iterator[str]:
+@cache
+def tree_of(name: str) -> ast.Module:
+    return ast.parse(text_of(f"{name}.py"))
+
+
+def defined(name: str) -> Iterator[str]:
     """Yield the names that a module defines at its top level, once for each definition."""
-    for node in ast.parse(text).body:
+    for node in tree_of(name).body:
         if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
             yield node.name
         elif isinstance(node, (ast.Assign, ast.AnnAssign)):
@@ -52,7 +58,7 @@ def offered() -> list[str]:
 
 def imports(name: str) -> Iterator[tuple[str, set[str]]]:
     """Yield the modules that a module imports from, but for types alone, and the names."""
-    for node in ast.parse(text_of(f"{name}.py")).body:
+    for node in tree_of(name).body:
         if isinstance(node, ast.ImportFrom) and str(node.module).startswith(IMPORTS):
             yield node.module.removeprefix(IMPORTS), {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
@@ -62,7 +68,7 @@ def imports(name: str) -> Iterator[tuple[str, set[str]]]:
 def test_no_name_is_defined_twice_in_all_modules_together():
     names = Counter(offered())
     for name in build.MODULES:
-        names.update(n for n in defined(text_of(f"{name}.py")))
+        names.update(defined(name))
     assert len(names) > 90
     assert {name: count for name, count in names.items() if count > 1} == {}
 
@@ -71,11 +77,11 @@ def test_the_library_is_the_same_in_python_and_in_c():
     """What is in C alone is for itself: it hands functions' addresses over, and takes them."""
     alone = {"connect", "Found", "note_arbiter", "Engine", "engine", "Before", "corners"}
     alone |= {name for name in offered() if name.startswith("cp")}
-    in_python = set(defined(text_of("library.py")))
+    in_python = set(defined("library"))
     assert set(offered()) - alone <= in_python
     assert len(taken()) > 30
     assert taken() - {"callback"} <= set(offered())  # in C a decorator takes its place
-    assert set(build.in_c()) <= set(defined(text_of("chipmunk.py")))
+    assert set(build.in_c()) <= set(defined("chipmunk"))
 
 
 def test_numbers_with_names_are_divided_in_c_as_in_python():
@@ -88,7 +94,7 @@ def test_numbers_with_names_are_divided_in_c_as_in_python():
 def test_a_module_imports_only_what_is_there_when_they_are_joined(name):
     """Of those before it in the list, by their own names; of C's mathematics; of typing."""
     before = build.MODULES[: build.MODULES.index(name)]
-    known = {each: set(defined(text_of(f"{each}.py"))) for each in ("library", *before)}
+    known = {each: set(defined(each)) for each in ("library", *before)}
     known |= {"math": {"ceil", "floor", "fmod", "sqrt"}}
     known |= {
         "typing": {"Any", "TYPE_CHECKING"},

@@ -104,17 +104,6 @@ def test_each_default_is_the_one_stated(row):
     assert stated or row[4] == "-"
 
 
-def test_the_defaults_that_table_1_states_are_those_here():
-    scenario = Scenario()
-    assert len(scenario.robots) == 1
-    assert isinstance(scenario.robots[0].drive, Unicycle)
-    assert scenario.title == "[Simulation]"
-    look = scenario.animation
-    assert (look.grid, look.show_initial_pose, look.show_real_shape, look.wake) == (True,) * 4
-    assert look.wake_style == "-"
-    assert look.playback_speed == 1
-
-
 def test_one_command_of_the_page_restores_all_of_marss_values():
     (command,) = re.findall(r"^mars2d run random_walk (.*)$", PAGE.read_text("utf-8"), flags=re.M)
     arguments = [word for word in shlex.split(command) if "=" in word]

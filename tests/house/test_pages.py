@@ -61,5 +61,6 @@ def faults(page: Path, text: str) -> list[str]:
     ]
 
 
+@pytest.mark.slow
 def test_every_page_is_rendered_as_it_was_meant():
     assert [fault for page in PAGES for fault in faults(page, page.read_text("utf-8"))] == []

@@ -15,7 +15,7 @@ from mars2d.bodies.props import Ball, Box
 from mars2d.geometry.shapes import Compound, Disc, Polygon
 from mars2d.physics.space import Space
 from mars2d.sensors import LineCamera, RangeFinder, SonarRing
-from mars2d.sensors.base import NOTHING
+from mars2d.sensors.surroundings import NOTHING
 from tests.cases import each_case
 from tests.islands import pymunk_space
 

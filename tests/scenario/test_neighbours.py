@@ -145,18 +145,6 @@ def test_delaunay_neighbours_share_an_edge_of_their_voronoi_cells(seed, n):
     assert edges(Delaunay().of(position)) == both_ways(shared_edges(position))
 
 
-def test_delaunay_of_more_robots_agrees_with_scipys_voronoi_cells():
-    from scipy.spatial import Voronoi
-
-    position = scattered(1, 400)
-    assert edges(Delaunay().of(position)) == both_ways(Voronoi(position.T).ridge_points.tolist())
-
-
-def test_two_robots_are_neighbours_wherever_they_are():
-    for x, y in ((1, 0), (1e-9, 1e-9), (0, 0), (-1e6, 1e6)):
-        assert Delaunay().of(np.array([[0.0, x], [0.0, y]])) == [[1], [0]]
-
-
 @each_case("turn", np.linspace(0, 3, 5))
 @each_case("noise", [0, 1e-16, 1e-13])
 def test_robots_in_a_row_have_those_before_and_after_them(turn, noise):

@@ -36,16 +36,6 @@ def test_one_robot_is_a_complete_scenario():
     assert scenario.obstacles == ()
 
 
-def test_the_defaults_are_those_of_the_paper():
-    scenario = Scenario()
-    assert scenario.title == "[Simulation]"
-    assert scenario.command_delay == 0
-    assert scenario.stop_time == 100
-    robot = scenario.robots[0]
-    assert (robot.diameter, robot.mass, robot.friction, robot.restitution) == (0.3, 1, 0.5, 0)
-    assert isinstance(robot.drive, Unicycle)
-
-
 def test_a_number_of_robots_stands_on_a_circle_facing_its_centre():
     scenario = Scenario(robots=4)
     x, y, theta = scenario.initial_pose
@@ -65,15 +55,6 @@ def test_two_robots_or_addons_of_one_name_are_refused():
     with pytest.raises(InputError, match=r"two are called 'map'.*give one another name"):
         Scenario(addons=[wall(1), wall(2)])
     assert len(Scenario(addons=[wall(1), wall(2).replace(name="second")]).obstacles) == 2
-
-
-def test_a_misspelt_field_gives_the_nearest_name():
-    with pytest.raises(InputError, match=r"Scenario has no field 'robot'; did you mean 'robots'"):
-        Scenario(robot=[Robot()])
-    with pytest.raises(InputError, match=r"did you mean 'diameter'"):
-        Robot(diametr=0.3)
-    with pytest.raises(InputError, match=r"write max_linear_speed="):
-        Unicycle(max_speed=1)
 
 
 @each_case(

@@ -67,7 +67,7 @@ def test_the_heading_of_a_gyroscope_walks_alike_at_any_rate(sampling_time, every
 @each_case("every", [1, 4])
 def test_one_reading_is_the_noisier_the_shorter_its_time(every):
     robot = Robot(sensors=[Imu(noise=0.02, rate=25 / every)])
-    found = mars2d.run(Scenario(robots=[robot], sampling_time=0.04, stop_time=160)).sensors["imu"]
+    found = mars2d.run(Scenario(robots=[robot], sampling_time=0.04, stop_time=60)).sensors["imu"]
     spread(found[::every, 0].ravel(), 0.02 / sqrt(0.04 * every))
 
 
@@ -105,7 +105,7 @@ class Gyroscope(Sensor):
 
 def test_a_sensor_of_ones_own_may_have_a_density():
     robot = Robot(sensors=[Gyroscope(noise=(0.05, 0.0), rate=5, outliers=0.0)])
-    scenario = Scenario(robots=[robot], sampling_time=0.04, stop_time=400)
+    scenario = Scenario(robots=[robot], sampling_time=0.04, stop_time=100)
     found = mars2d.run(scenario).sensors["gyroscope"][::5, 0]
     spread(found[:, 0], 0.05 / sqrt(0.2))
     assert not found[:, 1].any()
@@ -142,6 +142,3 @@ def test_odometry_follows_a_noisy_drive_at_any_sampling_time(sampling_time):
     believed = world.record.sensors["odometry"][-1, :, 2]
     spread(world.pose[2], noise * v * sqrt(world.time / 2) / b)
     spread(believed - world.pose[2], drift * sqrt(v * world.time / 2) / b)
-
-
-# -- one draw for each reading -------------------------------------------------------------------

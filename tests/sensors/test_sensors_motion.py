@@ -287,6 +287,3 @@ def test_the_bias_is_constant_and_its_walk_grows_with_the_root_of_time():
 def test_an_imu_that_can_not_be_is_an_error(fields, message):
     with pytest.raises(InputError, match=message):
         Imu(**fields)
-
-
-# -- pictures ----------------------------------------------------------------------------------

@@ -96,6 +96,7 @@ TOUCHING = [
 ]
 
 
+@pytest.mark.slow
 @each_case(("scene", "argument"), TOUCHING)
 def test_in_contact_it_does_so_to_the_bit(scene, argument):
     scenario = scene(argument)

@@ -7,7 +7,6 @@ import pytest
 
 import mars2d
 from mars2d import LawError, Robot, Scenario, World
-from mars2d.sensors import Proximity
 from tests.cases import each_case
 
 
@@ -123,44 +122,6 @@ def test_a_law_that_raises_is_shown_with_its_innermost_own_line():
 
 
 # -- what a law may see ---------------------------------------------------------------------
-
-
-def asking(question):
-    """A law that asks its robot something, and what it got."""
-    answers = []
-
-    def law(robot):
-        answers.append(question(robot))
-        return 0, 0
-
-    return law, answers
-
-
-def ask(question, *, sees="full", sensors=()):
-    law, answers = asking(question)
-    robots = [
-        Robot(pose=(1, 2, 3), controller=law, sees=sees, sensors=sensors, name="me"),
-        Robot(pose=(4, 3, 2), name="other"),
-    ]
-    mars2d.run(Scenario(robots=robots, stop_time=0))
-    return answers[0]
-
-
-@each_case(
-    ("question", "message"),
-    [
-        (lambda robot: robot.sense.proximty, "no sensor 'proximty'; did you mean 'proximity'?"),
-        (lambda robot: robot.sense.lidar, "no sensor 'lidar'; known: proximity"),
-        (lambda robot: robot.posee, "a robot has no 'posee'; did you mean 'pose'?"),
-        (lambda robot: robot.neighbors, "a robot has no 'neighbors'; did you mean 'neighbours'?"),
-        (lambda robot: robot.senses, "a robot has no 'senses'; did you mean 'sense'?"),
-        (lambda robot: robot.memory.lost, "robot.memory has no 'lost' yet"),
-    ],
-)
-def test_a_typo_gives_the_nearest_name(question, message):
-    with pytest.raises(LawError) as raised:
-        ask(question, sensors=[Proximity(range=1)])
-    assert message in str(raised.value)
 
 
 def test_memory_is_kept_between_steps_and_belongs_to_one_robot():

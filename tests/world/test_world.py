@@ -106,9 +106,6 @@ def test_a_given_command_that_cannot_be_used_is_an_input_error(command):
     assert world.iteration == 1
 
 
-# -- saturation -----------------------------------------------------------------------------
-
-
 # -- what is read only ----------------------------------------------------------------------
 
 

@@ -7,21 +7,22 @@ from typing import Any
 
 from mars2d.bodies.constraints import Constraint, Pin, TurningRange, TurningSpring
 from mars2d.bodies.joints.base import Float, Joint
-from mars2d.core.description import accepts, entry, number, numbers_schema, real, wrong
+from mars2d.core.description import accepts, entry, number, several, wrong
 from mars2d.core.scene import INK, Scene
 
+LIMITS = "(least, largest) angle from the start, radians, least <= 0 <= largest; or None"
 
-@accepts(numbers_schema(-100 * pi, 100 * pi, 2, 2))
+_pair = several(-100 * pi, 100 * pi, 2, LIMITS)
+
+
+@accepts(vars(_pair)["schema"])
 def turning_limits(name: str, value: Any) -> tuple[float, float] | None:
     """Check the limits of a hinge, angles from its start."""
-    expected = "(least, largest) angle from the start, radians, least <= 0 <= largest; or None"
     if value is None:
         return None
-    if not isinstance(value, (tuple, list)) or len(value) != 2:
-        raise wrong(name, value, expected)
-    least, largest = (real(name, item, expected) for item in value)
-    if not -100 * pi <= least <= 0 <= largest <= 100 * pi:
-        raise wrong(name, value, expected)
+    least, largest = _pair(name, value)
+    if not least <= 0 <= largest:
+        raise wrong(name, value, LIMITS)
     return least, largest
 
 

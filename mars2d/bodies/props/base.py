@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any, ClassVar, Self
+from typing import ClassVar, Self
 
 from mars2d.bodies.joints.base import Joint
 from mars2d.bodies.rigid import Inertia, Rigid, Surface, inertia_of
 from mars2d.core import checks
 from mars2d.core.description import (
     Description,
-    accepts,
     entry,
     number,
-    numbers_schema,
-    real,
+    several,
     text,
-    wrong,
 )
 from mars2d.core.materials import (
     MATERIALS,
@@ -33,15 +30,7 @@ MAX_SPEED = 100.0
 """The highest speed at the start, m/s and rad/s; higher ones need ever more substeps."""
 
 
-@accepts(numbers_schema(-MAX_SPEED, MAX_SPEED, 2, 3))
-def _velocity(name: str, value: Any) -> tuple[float, float, float]:
-    expected = f"(vx, vy, omega) in m/s and rad/s, each within +-{MAX_SPEED:g}"
-    if not isinstance(value, (tuple, list)) or len(value) not in (2, 3):
-        raise wrong(name, value, expected)
-    vx, vy, omega = (real(name, item, expected) for item in [*value, 0.0][:3])
-    if max(abs(vx), abs(vy), abs(omega)) > MAX_SPEED:
-        raise wrong(name, value, expected)
-    return vx, vy, omega
+_LIMITS = f"(vx, vy, omega) in m/s and rad/s, each within +-{MAX_SPEED:g}"
 
 
 class Prop(Description):
@@ -60,7 +49,8 @@ class Prop(Description):
         doc="initial pose (x, y, theta) of the centre of mass",
     )  # fmt: skip
     velocity: tuple[float, float, float] = entry(
-        default=(0.0, 0.0, 0.0), check=_velocity, unit="m/s, m/s, rad/s",
+        default=(0.0, 0.0, 0.0), check=several(-MAX_SPEED, MAX_SPEED, 3, _LIMITS, fewer=1),
+        unit="m/s, m/s, rad/s",
         doc="initial velocity (vx, vy, omega)",
     )  # fmt: skip
     material: str | None = entry(

@@ -8,7 +8,6 @@ from functools import partial
 
 import pygame
 
-from mars2d.bodies.colors import prop_colors
 from mars2d.core.description import snake_case
 from mars2d.output.layers.forces import SLIPPING
 from mars2d.output.raster.painter import Painter
@@ -135,10 +134,11 @@ class Inspector(RowsPanel):
     ) -> None:
         """Draw the name and kind of a body."""
         ui, theme = self.painter.ui, self.painter.theme
-        colors = (*frame.scenario.colors, *prop_colors(frame.scenario.props))
         center = rect.left + 7 * ui, float(rect.centery)
         pygame.draw.aacircle(surface, theme.muted, center, 7.5 * ui)
-        pygame.draw.aacircle(surface, theme.shade(colors[body]), center, 6.5 * ui)
+        pygame.draw.aacircle(
+            surface, theme.shade(frame.scenario.body_colors[body]), center, 6.5 * ui
+        )
         inset, close = round(22 * ui), round(CLOSE * ui)
         head = pygame.Rect(rect.left + inset, rect.top, rect.width - inset - close, rect.height)
         name = Word(str(frame.scenario.bodies[body].name), theme.ink, 17, bold=True)

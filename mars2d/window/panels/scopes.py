@@ -12,7 +12,6 @@ import numpy as np
 import pygame
 from numpy.typing import NDArray
 
-from mars2d.bodies.colors import prop_colors
 from mars2d.core.errors import InputError
 from mars2d.core.scene import PALETTE
 from mars2d.core.usercode import name_of
@@ -301,9 +300,8 @@ class Scopes(Panel):
         """Return the colour of each curve: that of its body, if it tells the bodies apart."""
         theme, count = self.painter.theme, signal.values.shape[1]
         if signal.bodies:
-            own = (*scenario.colors, *prop_colors(scenario.props))
             each = count // len(signal.bodies)
-            found = [own[body] for body in signal.bodies for _ in range(each)]
+            found = [scenario.body_colors[body] for body in signal.bodies for _ in range(each)]
             if len(set(found)) == count or count > len(PALETTE):
                 return [theme.shade(color) for color in found]
         found = [PALETTE[k % len(PALETTE)] for k in range(count)]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.bodies.colors import prop_colors
 from mars2d.core.scene import Scene, faded
 from mars2d.output.layers.bodies import bounding_circle, draw_prop, draw_robot
 from mars2d.record.frame import Frame
@@ -77,16 +76,13 @@ class _Ghost:
         while len(way) > 128 * stride:
             stride *= 2
         points = np.vstack([way[::stride], there[None]])
-        scene.line(points, stroke=faded(self._color(body), 0.7), width=1.2, style="--")
-
-    def _color(self, body: int) -> str:
-        scenario = self.world.scenario
-        n = len(scenario.robots)
-        return scenario.colors[body] if body < n else prop_colors(scenario.props)[body - n]
+        scene.line(
+            points, stroke=faded(self.world.scenario.body_colors[body], 0.7), width=1.2, style="--"
+        )
 
     def _body(self, scene: Scene, body: int, pose: Float) -> None:
         """Draw a body, pale and hollow."""
-        scenario, color = self.world.scenario, self._color(body)
+        scenario, color = self.world.scenario, self.world.scenario.body_colors[body]
         n = len(scenario.robots)
         if body >= n:
             draw_prop(scene, scenario.props[body - n], pose, faded(color, 0.2))

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.bodies.colors import prop_colors
 from mars2d.core.description import snake_case
 from mars2d.core.scene import Scene
 from mars2d.output.controls import MARKS
@@ -159,7 +158,6 @@ class _Content:
         scenario = self.scenario
         robots, props, wake = scenario.robots, scenario.props, scenario.animation.wake_style
         kinds = (*(robot.drive for robot in robots), *props)
-        colors = (*scenario.colors, *prop_colors(props))
         trails = [(color, TRAIL_WIDTH, wake) for color in trail_colors(scenario)]
         trails += [(color, PROP_TRAIL_WIDTH, "-") for color in prop_trail_colors(scenario)]
         bodies: list[dict[str, Any]] = [
@@ -173,7 +171,7 @@ class _Content:
                 "trail": ["line", mixed(ink, LIGHT.paper, int(ink[7:], 16) / 255), width, style],
             }
             for i, (body, kind, color, (ink, width, style)) in enumerate(
-                zip(scenario.bodies, kinds, colors, trails, strict=True)
+                zip(scenario.bodies, kinds, scenario.body_colors, trails, strict=True)
             )
         ]
         for robot, told in zip(robots, bodies, strict=False):

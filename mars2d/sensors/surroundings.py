@@ -3,44 +3,38 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from functools import cached_property
 from math import isfinite
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mars2d.addons.base import Addon, Color
-from mars2d.bodies.colors import OBSTACLE, prop_colors
+from mars2d.core import checks
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Point
 from mars2d.core.through import through
 from mars2d.core.usercode import called
-from mars2d.physics.space import Space
-from mars2d.sensors.base import NOTHING
-from mars2d.world.state import Addons, State
 
 Float = NDArray[np.float64]
 Int = NDArray[np.int64]
+
+NOTHING = -(2**31)
+"""The number of the body that a ray hits where it hits none; bodies are >= 0, obstacles < 0."""
 
 WHITE = (1.0, 1.0, 1.0)
 """The colour of the floor where no add-on gives it one."""
 
 
-class Around:
-    """The Surroundings of one world's sensors; see `mars2d.sensors.Surroundings`."""
+class Surroundings:
+    """Answers the questions of one world's sensors and add-ons. Points are (x, y) [m] in its frame.
 
-    def __init__(self, world: State) -> None:
+    `ignore` is the index of the robot that asks: it never sees itself. Bodies are numbered robots
+    first, then props; obstacle k is -1 - k. Raises InputError for numbers that are not finite.
+    """
+
+    def __init__(self, world: Any) -> None:
+        """Take the state of the world."""
         self._world = world
-        self.renew()
-
-    def renew(self) -> None:
-        """Drop all caches, after bodies, obstacles or add-ons were changed."""
-        for name in ("_colors", "_addons"):
-            vars(self).pop(name, None)
-
-    @property
-    def _space(self) -> Space:
-        return self._world.engine.space
 
     time: float = through("_world.time")
     """The simulated time, seconds."""
@@ -50,79 +44,90 @@ class Around:
     """The poses of all robots, (3, n)."""
     prop_pose: Float = through("_world.prop_pose")
     """The poses of all props, (3, p)."""
+    addons: Any = through("_world.addons")
+    """The add-ons, as attributes by their names: an experiment may add things to measure."""
     driven: Sequence[tuple[float, Float]] = through("_world.driven")
-    """The twists that the drives asked for in the last control step."""
-    addons: Addons = through("_world.addons")
-    """The add-ons by name, as ``world.addons``."""
+    """The twists that the drives asked for in the last control step: (seconds, (3, n)) in turn.
+
+    A twist is (forward [m/s], left [m/s], spin [rad/s]), linear velocities along the axes of the
+    robot or, for a drive whose `frame` is "world", of the world. Empty at the start.
+    """
 
     # -- rays and points -------------------------------------------------------------------
 
     def distance(self, point: Point, limit: float, ignore: int) -> float:
-        """Return the distance to the nearest surface, metres; inf beyond `limit`."""
+        """Return the distance to the nearest surface, metres; inf when beyond `limit`.
+
+        Negative inside a robot.
+        """
         _check_look("point", point, "limit", limit)
-        return self._space.distance(point, limit, ignore)
+        return float(self._world.engine.space.distance(point, limit, ignore))
 
     def nearby(self, point: Point, limit: float, ignore: int) -> Iterator[Point]:
         """Yield, for each surface at most `limit` away, its nearest point (x, y)."""
         _check_look("point", point, "limit", limit)
-        return self._space.nearby(point, limit, ignore)
+        found: Iterator[Point] = self._world.engine.space.nearby(point, limit, ignore)
+        return found
 
     def ray(self, start: Point, angle: float, length: float, ignore: int) -> float:
-        """Return the length of a ray to the first surface, metres; inf if none is hit."""
+        """Return how far a ray goes until the first surface, metres; inf when nothing is hit."""
         _check_look("start", start, "length", length)
         if not isfinite(angle):
             raise InputError(f"angle = {angle}: expected a finite number")
-        return self._space.length(start, angle, length, ignore)
+        return float(self._world.engine.space.length(start, angle, length, ignore))
 
     def scans(self, poses: Float, bearings: Float, length: ArrayLike, ignore: ArrayLike) -> Float:
-        """Return the lengths (m, k) of rays from poses (3, m) at bearings (k,), metres."""
+        """Return how far rays of robots go, (m, k) metres; inf where nothing is hit.
+
+        poses: where each one's rays start, and which way it looks (3, m). bearings: of the rays
+        from there (k,) rad. length: of all rays, or (k,). ignore: the robots that ask (m,). A ray
+        that starts inside a robot or prop goes 0 m. Obstacles are outlines: within one of them a
+        ray goes on to its edge.
+        """
         _check_fans(poses, bearings, length)
-        return self._space.distances(poses, bearings, length, ignore)
+        found: Float = self._world.engine.space.distances(poses, bearings, length, ignore)
+        return found
 
     def sights(
         self, poses: Float, bearings: Float, length: ArrayLike, ignore: ArrayLike
     ) -> tuple[Float, Int]:
-        """Return the lengths of rays as `scans`, and the body that each hits, (m, k)."""
+        """Return how far rays go, as `scans`, and which body each hits, (m, k): NOTHING if none."""
         _check_fans(poses, bearings, length)
-        return self._space.sight(poses, bearings, length, ignore, NOTHING)
+        space = self._world.engine.space
+        found: tuple[Float, Int] = space.sight(poses, bearings, length, ignore, NOTHING)
+        return found
 
     def hidden(
         self, start: Point, points: Float, bodies: ArrayLike, ignore: int
     ) -> NDArray[np.bool_]:
-        """Return whether something stands between `start` and points (k, 2)."""
-        return self._space.hidden(start, points, bodies, ignore)
+        """Return whether something stands between `start` and points (k, 2).
 
-    # -- looks -------------------------------------------------------------------------------
+        bodies: (k,) or one: the body that each point belongs to, which does not hide it, or
+        NOTHING.
+        """
+        return np.asarray(self._world.engine.space.hidden(start, points, bodies, ignore))
+
+    # -- looks and add-ons --------------------------------------------------------------------
 
     def color(self, body: int) -> str:
         """Return the colour of a body or obstacle, ``#rrggbb``."""
-        return OBSTACLE if body < 0 else self._colors[body]
-
-    @cached_property
-    def _colors(self) -> tuple[str, ...]:
-        scenario = self._world.scenario
-        return (*scenario.colors, *prop_colors(scenario.props))
-
-    # -- add-ons ----------------------------------------------------------------
-
-    @cached_property
-    def _addons(self) -> tuple[Addon, ...]:
-        return tuple(vars(self._world.addons).values())
+        return str(self._world.scenario.color_of(body))
 
     @property
     def beacons(self) -> Mapping[str, Point]:
-        """The positions of the beacons now, by name."""
+        """Where the beacons are now, by name. Raises LawError for what is no point."""
         found: dict[str, Point] = {}
-        for addon in self._addons:
+        for addon in vars(self.addons).values():
             with called(f"add-on {addon.key!r}", addon.beacons):
-                found |= addon.beacons()
+                for name, place in addon.beacons().items():
+                    found[str(name)] = checks.point(f"beacon {name!r}", place)
         return found
 
-    def ground(self, point: Point) -> Color:
+    def ground(self, point: Point) -> tuple[float, float, float]:
         """Return the colour of the floor at a point: red, green and blue from 0 to 1."""
-        for addon in reversed(self._addons):
+        for addon in reversed(vars(self.addons).values()):
             with called(f"add-on {addon.key!r}", addon.ground):
-                color = addon.ground(point)
+                color: tuple[float, float, float] | None = addon.ground(point)
             if color is not None:
                 return color
         return WHITE
