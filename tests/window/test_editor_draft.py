@@ -50,6 +50,10 @@ def furnished():
     )
 
 
+def renamed(draft, robot, name):
+    return draft.with_members([Item("robot", robot)], lambda part: part.replace(name=name))
+
+
 def test_a_draft_keeps_the_order_and_the_fields_of_add_ons():
     scenario = furnished()
     draft = Draft(scenario).added("outline", ((-1, -1), (0, -1), (0, 0)))
@@ -71,7 +75,7 @@ def test_with_a_robot_go_its_route_and_its_joints():
     scenario = draft.scenario()
     assert draft.listed("waypoint") == ((),)
     assert scenario.joints == ()
-    assert draft.added("robot", Robot()).renamed(Item("robot", 1), "second").base.joints == ()
+    assert renamed(draft.added("robot", Robot()), 1, "second").base.joints == ()
     assert not any(isinstance(addon, Waypoints) for addon in scenario.addons)
     first = Draft(furnished()).without([Item("robot", 0)])
     (route,) = first.listed("waypoint")
@@ -140,7 +144,7 @@ def test_a_new_name_holds_wherever_the_body_is_mentioned():
         stop_on=[("robot0", "box0")],
     )
     draft = Draft(scenario)
-    draft = draft.renamed(Item("robot", 0), "Ada").renamed(Item("robot", 1), "Bo")
+    draft = renamed(renamed(draft, 0, "Ada"), 1, "Bo")
     assert [robot.name for robot in draft.robots] == ["Ada", "Bo", "robot2"]
     assert draft.robots[2].controller.leader == "Ada"
     assert draft.base.joints[0].a == "Bo"
@@ -150,7 +154,7 @@ def test_a_new_name_holds_wherever_the_body_is_mentioned():
     assert (game.hunted, estimate.robot) == (("Bo",), "Ada")
     assert (found.random_starts[0].bodies, found.stop_on) == (("Ada",), (("Ada", "box0"),))
     with pytest.raises(InputError, match="'Bo' is the name of another body"):
-        draft.renamed(Item("robot", 0), "Bo")
+        renamed(draft, 0, "Bo")
 
 
 def test_things_turn_about_a_point_and_come_back():
@@ -284,7 +288,7 @@ def test_a_draft_of_an_example_is_that_scenario_again_and_can_be_emptied(name):
     assert editor.desk.notice == ""
     editor.desk.put(editor.desk.draft.without(editor.desk.draft.items()))
     editor.draw(surface)
-    assert "no robot" in editor.judge.verdict.text
+    assert "no robot" in editor.verdict.text
 
 
 def test_the_keys_in_the_document_and_the_help_are_those_that_work():
