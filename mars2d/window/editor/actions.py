@@ -77,6 +77,9 @@ def actions_of(editor: Editor) -> dict[str, tuple[Action, ...]]:
     ) -> Action:
         return key(name, keys, words, act, title=words.capitalize(), icon=ICONS[name], on=on)
 
+    def chosen(name: str) -> bool:
+        return name == editor.tool_name
+
     def switch(whole: object, name: str) -> None:
         setattr(whole, name, not getattr(whole, name))
 
@@ -96,8 +99,7 @@ def actions_of(editor: Editor) -> dict[str, tuple[Action, ...]]:
               title="Run", on=lambda: not history.changed)  # fmt: skip
     return {
         "Tools": tuple(
-            button(name, letter, words, partial(editor.choose, name),
-                   lambda name=name: editor.tool_name == name)
+            button(name, letter, words, partial(editor.choose, name), partial(chosen, name))
             for name, letter, _, words in TOOLS
         ),
         "Change": (
@@ -114,7 +116,7 @@ def actions_of(editor: Editor) -> dict[str, tuple[Action, ...]]:
             key("next", "Tab", "select the next item", editor.select_next),
             key("more", "Shift Tab", "select the next item, too",
                 partial(editor.select_next, too=True)),
-            key("properties", "F2", "choose a property to change", 
+            key("properties", "F2", "choose a property to change",
                 partial(setattr, editor.panel, "focused", True)),
             key("undo", "Ctrl Z", "undo", editor.undo,
                 title="Undo", when=lambda: history.has(-1), repeats=True),

@@ -102,7 +102,7 @@ class Editor:
         self.menu, self.panel = Menu(), Menu(docked=True)
         self.dialogs = Dialogs(
             self.desk, self.menu, self.document, scenario,
-            live=live, complete=lambda: self.tool.confirm(),
+            live=live, complete=lambda: self.tool.confirm(),  # noqa: PLW0108
         )  # fmt: skip
         self.properties = Properties(
             self.desk, self.dialogs, self.document, self.menu, self.panel,
