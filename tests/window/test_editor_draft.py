@@ -200,17 +200,10 @@ def test_a_waypoint_outside_the_workspace():
     assert fault(draft) == ("waypoint 0 of robot0 lies outside the workspace", outside)
 
 
-@each_case(
-    "outline, words",
-    [
-        (BOW, "obstacle 1: the polygon crosses or touches itself at (0.5, 0.5)"),
-        (((0, 0), (0, 0), (1, 1)), "obstacle 1: vertices 0 and 1 are the same"),
-    ],
-)
-def test_outlines_that_are_none(outline, words):
-    with pytest.raises(InputError) as refused:
-        Draft(furnished()).added("outline", outline)
-    assert str(refused.value).startswith(words)
+def test_outlines_that_are_none():
+    words = r"obstacle 1: the polygon crosses or touches itself at \(0.5, 0.5\)"
+    with pytest.raises(InputError, match=words):
+        Draft(furnished()).added("outline", BOW)
 
 
 # -- history, sketch, targets, prompts -------------------------------------------------------------
@@ -250,11 +243,11 @@ def test_the_grid_follows_the_zoom_and_points_are_tidy():
     assert desk.step == 0.002
 
 
-@each_case("end", [(2, 1), (-2, 1), (-2, -1), (2, -1)])
-def test_a_box_spans_two_corners_whichever_way(end):
-    box = spanned(Box(pose=(9, 9, pi / 2)), (0.0, 0.0), end)
-    assert (box.length, box.width) == (1, 2)
-    assert box.pose == pytest.approx((end[0] / 2, end[1] / 2, pi / 2))
+def test_a_box_spans_two_corners_whichever_way():
+    for end in ((2, 1), (-2, 1), (-2, -1), (2, -1)):
+        box = spanned(Box(pose=(9, 9, pi / 2)), (0.0, 0.0), end)
+        assert (box.length, box.width) == (1, 2)
+        assert box.pose == pytest.approx((end[0] / 2, end[1] / 2, pi / 2))
 
 
 def test_a_document_proposes_a_name_that_is_free_and_never_a_py(tmp_path, monkeypatch):
