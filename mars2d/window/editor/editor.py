@@ -390,6 +390,9 @@ class Editor:
         self.panel.draw(surface, right, self.painter)
         self._header.draw_bar(surface, bar, self.painter, self.title, self._note(), self._pointer)
         self._draw_foot(surface)
+        if self.tool.remark:
+            x, y = (each + round(16 * self.layout.ui) for each in self._pointer)
+            draw_tooltip(surface, self.painter, self.tool.remark, topleft=(x, y))
         if not (self._dragging or self.help.is_open):
             self._toolbar.draw_tip(surface, self.painter, self._pointer)
         self.menu.draw(surface, surface.get_rect(), self.painter)
@@ -427,11 +430,6 @@ class Editor:
             self._plain = True
             self.desk.say(f"Other add-ons are not drawn: {error}", warns=True)
             draw(surface, draft.bare.frame(), camera, layers, plot)
-        remark = self.tool.remark
-        if remark:
-            x, y = self._pointer
-            gap = round(16 * self.layout.ui)
-            draw_tooltip(surface, self.painter, remark, topleft=(x + gap, y + gap))
 
     def _draw_foot(self, surface: pygame.Surface) -> None:
         """Draw what to do, or over the foot of the drawing a message of any length."""
@@ -446,6 +444,8 @@ class Editor:
         if layout.plot.collidepoint(self._pointer):
             x, y = desk.snapped(self._world(self._pointer))
             hints = [("", minus(f"x {x:g} m   y {y:g} m"))]
+        if self.tool_name != "select":
+            hints = [("=", "types a place"), *hints]
         size, looks = surface.get_size(), self.looks
         height = round(
             footer_height(banner, size, self.painter, looks.text, looks.scale) * layout.ui

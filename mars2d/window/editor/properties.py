@@ -463,6 +463,8 @@ def _in_words(value: object, unit: str = "") -> str:
         return "yes" if value else "no"
     if isinstance(value, Coefficient):
         return value.material
+    if isinstance(value, tuple) and not any(isinstance(each, str) for each in value):
+        return f"{', '.join(map(_in_words, value))} {unit * (',' not in unit)}".strip()
     text = f"{value:.4g}" if isinstance(value, float) else COLORS.get(str(value), str(value))
     return f"{text} {unit}".strip()
 
