@@ -6,7 +6,7 @@ import pytest
 
 from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
-from mars2d.output.raster.painter import Painter, Sprites
+from mars2d.output.raster.painter import Painter
 from mars2d.scenario.animation import Animation
 from mars2d.sensors import Proximity, RangeFinder
 from mars2d.window.run.window import Window
@@ -21,12 +21,12 @@ def sprite(width, height):
 
 
 def test_a_full_store_is_emptied_and_what_is_too_large_is_not_kept():
-    sprites = Sprites(300)
+    painter = Painter(kept=300)
     for name in "abcd":
-        sprites.keep(name, sprite(10, 10))
-    assert (list(sprites), sprites.kept) == (["d"], 100)
-    sprites.keep("e", sprite(20, 20))
-    assert (list(sprites), sprites.kept) == ([], 0)
+        painter._store(name, sprite(10, 10))
+    assert list(painter._sprites) == ["d"]
+    painter._store("e", sprite(20, 20))
+    assert not painter._sprites
 
 
 # -- pictures -------------------------------------------------------------------------------------

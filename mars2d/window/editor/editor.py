@@ -37,7 +37,7 @@ from mars2d.window.editor.item import Item, Motion
 from mars2d.window.editor.placing import Tie
 from mars2d.window.editor.properties import Properties
 from mars2d.window.editor.readout import minus
-from mars2d.window.editor.select import Handling, Select
+from mars2d.window.editor.select import Select
 from mars2d.window.editor.tool import Tool
 from mars2d.window.editor.verdict import Verdict
 from mars2d.window.screen.looks import Looks
@@ -290,7 +290,7 @@ class Editor:
 
     def _touch(self, corner: int) -> None:
         """Choose a corner of the selection, and ask where it lies."""
-        if not isinstance(self.tool, Handling):
+        if self.tool_name != "select":
             self.choose("select")
         self.desk.corner = corner
         self.ask_pose()

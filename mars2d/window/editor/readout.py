@@ -31,9 +31,6 @@ def described(desk: Desk) -> list[str]:
         lines.append(_place(draft.place(item)))
     else:
         lines.append(f"{counted(len(corners), 'corner')}, {_length(item, corners)}")
-    size = size_of(draft, item)
-    if size:
-        lines.append(size)
     return [minus(line) for line in lines]
 
 

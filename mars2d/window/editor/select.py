@@ -21,8 +21,13 @@ from mars2d.window.editor.picking import item_at, items_within
 from mars2d.window.editor.tool import Tool
 
 
-class Handling(Tool):
-    """The base of tools that drag handles."""
+class Select(Tool):
+    """Selects, moves, turns and resizes items."""
+
+    hint = "Click or drag to select; drag moves, the ring turns"
+    _band: tuple[Point, Point] | None = None
+    _kept: tuple[Item, ...] = ()
+    _clicked: Item | None = None
 
     def take(self, handle: Handle, point: Point) -> None:
         """Begin to drag a handle."""
@@ -55,19 +60,6 @@ class Handling(Tool):
         angle = 0.0 if heading is None or pose is None else heading - pose[2]
         by = x - place[0], y - place[1]
         desk.put(draft.moved(desk.selection, Motion(angle, place, by)))
-
-    def draw(self, scene: Scene) -> None:
-        """Draw the handles."""
-        draw_handles(self.desk, scene)
-
-
-class Select(Handling):
-    """Selects and moves items."""
-
-    hint = "Click or drag to select; drag moves, the ring turns"
-    _band: tuple[Point, Point] | None = None
-    _kept: tuple[Item, ...] = ()
-    _clicked: Item | None = None
 
     def press(self, point: Point, *, shift: bool) -> None:
         """Begin to drag a handle, an item, or a rectangle round items."""
@@ -116,7 +108,7 @@ class Select(Handling):
 
     def draw(self, scene: Scene) -> None:
         """Draw the handles and the rectangle."""
-        super().draw(scene)
+        draw_handles(self.desk, scene)
         if self._band is not None:
             area = rectangle(*bounds_of(self._band))
             scene.polygon(area, fill=faded(MARK, 0.08), stroke=MARK, width=1.0)
