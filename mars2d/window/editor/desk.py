@@ -179,9 +179,8 @@ class Desk:
         if len(corners) == least:
             self.say(f"{self.draft.name(item)} needs {least} corners", warns=True)
             return
-        left = (*corners[: self.corner], *corners[self.corner + 1 :])
-        self.corner = None
-        self.put(self.draft.with_values({item: left}))
+        number, self.corner = self.corner, None
+        self.put(self.draft.with_corner(item, number))
 
     def duplicate(self) -> None:
         """Put a copy beside the selection, and select it; of a corner, half-way to the next one."""
@@ -190,8 +189,7 @@ class Desk:
             a, b = corners[self.corner], corners[(self.corner + 1) % len(corners)]
             middle = tidy((a[0] + b[0]) / 2), tidy((a[1] + b[1]) / 2)
             self.corner += 1
-            new = (*corners[: self.corner], middle, *corners[self.corner :])
-            self.put(self.draft.with_values({self.only: new}))
+            self.put(self.draft.with_corner(self.only, self.corner - 1, a, middle))
             return
         items = [item for item in self.selection if item.kind != "workspace"]
         if items:
@@ -206,9 +204,8 @@ class Desk:
         step = self.step * (0.1 if fine else 1.0)
         moved = Motion(by=(dx * step, dy * step))
         if self.corner is not None and self.only is not None:
-            corners = list(self.draft.corners(self.only) or ())
-            corners[self.corner] = moved.point(corners[self.corner])
-            self.put(self.draft.with_values({self.only: tuple(corners)}), tag="nudge")
+            place = moved.point((self.draft.corners(self.only) or ())[self.corner])
+            self.put(self.draft.with_corner(self.only, self.corner, place), tag="nudge")
         elif self.selection:
             self.put(self.draft.moved(self.selection, moved), tag="nudge")
 

@@ -266,6 +266,11 @@ class Draft:
             draft = draft.with_list(kind, listed)
         return draft
 
+    def with_corner(self, item: Item, number: int, *new: Point) -> Self:
+        """Return the draft with any number of corners in place of one of an outline."""
+        corners = self.corners(item) or ()
+        return self.with_values({item: (*corners[:number], *new, *corners[number + 1 :])})
+
     def moved(self, items: Collection[Item], motion: Motion) -> Self:
         """Return the draft with items moved. Bodies that started at random start there now."""
         draft = self.with_values({item: self._moved_one(item, motion) for item in items})

@@ -61,6 +61,8 @@ window's width."""
 PANEL, MAX_PANEL, ARENA = 268.0, 0.34, 0.42
 """The width of the panel, points, its largest share of the window's width, and the share of the
 window that it leaves to the drawing."""
+ROOMY = 800.0
+"""The width from which on the footer has room for one more hint, points."""
 PANEL_HINT = "Arrows choose a row, Enter opens it, Esc leaves the panel"
 STEP = 16.0
 """The height of the line below them, with the step of the grid, points."""
@@ -444,7 +446,8 @@ class Editor:
         if layout.plot.collidepoint(self._pointer):
             x, y = desk.snapped(self._world(self._pointer))
             hints = [("", minus(f"x {x:g} m   y {y:g} m"))]
-        if self.tool_name != "select":
+        wide = surface.get_width() >= ROOMY * layout.ui
+        if wide and self.tool_name != "select" and not self.panel.focused:
             hints = [("=", "types a place"), *hints]
         size, looks = surface.get_size(), self.looks
         height = round(

@@ -54,8 +54,7 @@ class Select(Tool):
         if heading is not None and (pose is None or desk.only is None):
             raise InputError("only one robot or prop alone has a heading: expected x y")
         if corners is not None and desk.corner is not None:
-            k = desk.corner
-            desk.put(draft.with_values({held: (*corners[:k], (x, y), *corners[k + 1 :])}))
+            desk.put(draft.with_corner(held, desk.corner, (x, y)))
             return
         angle = 0.0 if heading is None or pose is None else heading - pose[2]
         by = x - place[0], y - place[1]
