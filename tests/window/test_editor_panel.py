@@ -223,7 +223,9 @@ def test_without_a_mouse_everything_is_placed_selected_and_changed(open_editor):
     typed(hands, "-1 2")
     hands.press("Tab", "F2")
     hands.until(lambda s: s["focused"] and s["chosen"] == "Law")
-    hands.press("Return", "Return")
+    hands.press("Return")
+    assert hands.state["chosen"] == "none: it stands still"
+    hands.press("Home", "Return")
     hands.until(lambda s: s["laws"] == ["ByHand()"])
     hands.press("m", "a", "s", "Return")
     hands.fill("2")

@@ -30,7 +30,7 @@ from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.item import Item
 from mars2d.window.editor.readout import described, minus
-from mars2d.window.widgets.menu import Entry, Menu
+from mars2d.window.widgets.menu import CHOSEN, Entry, Menu
 from mars2d.window.widgets.prompt import Answer
 from mars2d.window.widgets.text_field import TextField
 
@@ -39,8 +39,6 @@ Field = dataclasses.Field[Any]
 
 SEVERAL = "several"
 """Shown where the selected bodies have different values."""
-CHOSEN = "✓"
-"""Marks the entry of a menu that holds now."""
 ELSEWHERE = ("pose", "shape", "controller", "a", "b", "workspace")
 """The fields that are changed in other ways."""
 COLORS = dict(
