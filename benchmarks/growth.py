@@ -45,8 +45,8 @@ EXPONENT = {"default": 1.05, "loose": 1.05, "crates": 1.1}
 
 COLOURS = {"default": "#0b69a3", "loose": "#b45309", "crates": "#2e7d32"}
 LABELS = {"default": "under 1 mm", "loose": "under 20 mm", "crates": "with crates"}
-NUMBERS = 8 * (3 + 2 + 1)
-"""What pose, command and effort of a robot take in a row of the record, bytes; a crate takes 24."""
+NUMBERS = 8 * (3 + 2 + 1 + 3)
+"""What a robot takes in a row of the record, bytes; a crate takes 48."""
 
 
 def measure(n: int, setting: str, least_time: float) -> dict[str, Any]:
@@ -67,7 +67,7 @@ def measure(n: int, setting: str, least_time: float) -> dict[str, Any]:
         "tick_s": statistics.median(ticks),
         "real_time": DT / statistics.median(ticks),
         "deepest_mm": 1e3 * deepest(scene, np.concatenate([record.pose, record.prop_pose], axis=2)),
-        "bytes_needed": NUMBERS + (16 + 24 * len(scene.crates)) / n + contacts,
+        "bytes_needed": NUMBERS + (64 + 48 * len(scene.crates)) / n + contacts,
         "bytes_of_contacts": contacts,
     }
     half = len(ticks) // 2
@@ -168,7 +168,7 @@ def draw_memory(ax: Axes, rows: Sequence[dict[str, Any]]) -> None:
         )  # fmt: skip
     ax.axhline(NUMBERS, color=MUTED, linewidth=1)
     ax.text(
-        min(row["n"] for row in rows), NUMBERS - 2, "pose 24, command 16, effort 8",
+        min(row["n"] for row in rows), NUMBERS - 2, "pose 24, command 16, effort 8, velocity 24",
         color=MUTED, fontsize=9, va="top",
     )  # fmt: skip
     ax.set_ylim(0, 1.9 * ax.get_ylim()[1])

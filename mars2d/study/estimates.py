@@ -18,8 +18,6 @@ from mars2d.study.statistics import (
     paired,
     paired_shares,
     shared,
-    unpaired,
-    unpaired_shares,
 )
 from mars2d.study.table import Result, Table
 
@@ -64,10 +62,6 @@ class Estimate:
     def difference(self, a: Float, b: Float, confidence: float = 0.95) -> Interval:
         """Return the difference a - b, of values of the same seeds in order, (k,) each."""
         return (paired_shares if self.share else paired)(a, b, confidence)
-
-    def apart(self, a: Float, b: Float, confidence: float = 0.95) -> Interval:
-        """Return the difference a - b of values (k,) and (m,), whatever their seeds."""
-        return (unpaired_shares if self.share else unpaired)(a, b, confidence)
 
 
 def estimates(table: Table, *, both: bool = True) -> list[Estimate]:

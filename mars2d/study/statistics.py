@@ -6,10 +6,9 @@ that are nan or infinite are taken as missing and left out; `count` is the numbe
 
 from __future__ import annotations
 
-import warnings
 from bisect import bisect_left
 from dataclasses import dataclass
-from math import ceil, hypot, isfinite, nan, sqrt
+from math import ceil, isfinite, nan, sqrt
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -90,35 +89,14 @@ def paired(a: ArrayLike, b: ArrayLike, confidence: float = 0.95) -> Interval:
     """Return the mean of a - b and its Student interval, where a[k] and b[k] form a pair.
 
     a, b: (n,), of runs from the same seeds. Chance that affects both alike cancels out, so the
-    interval is narrower than that of `unpaired` if a and b are correlated. Pairs with a missing
-    value are left out, and `count` is the number of the others. Raises InputError for other shapes.
+    interval is narrower if a and b are correlated. Pairs with a missing value are left out, and
+    `count` is the number of the others. Raises InputError for other shapes.
     Source: A. M. Law, Simulation Modeling and Analysis, 5th ed. (2015), sections 10.2.1 and 11.2,
     paired-t interval and common random numbers.
     """
     first, second = _pairs(a, b)
     with np.errstate(invalid="ignore", over="ignore"):
         return interval(first - second, confidence)
-
-
-def unpaired(a: ArrayLike, b: ArrayLike, confidence: float = 0.95) -> Interval:
-    """Return the difference of the means of a (n,) and b (m,), whose variances may differ.
-
-    For runs that do not form pairs. The count is that of all values.
-    Source: B. L. Welch, Biometrika 34 (1947), degrees of freedom by Satterthwaite (1946).
-    """
-    from scipy.stats import ttest_ind
-
-    confidence = confident(confidence)
-    first, second = _finite(a), _finite(b)
-    count, mean = len(first) + len(second), _mean(first) - _mean(second)
-    if len(first) < 2 or len(second) < 2:
-        return Interval(mean, nan, nan, count)
-    if np.ptp(first) == np.ptp(second) == 0:
-        return Interval(mean, mean, mean, count)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of values that are nearly the same
-        low, high = ttest_ind(first, second, equal_var=False).confidence_interval(confidence)
-    return Interval(mean, float(low), float(high), count)
 
 
 def paired_shares(a: ArrayLike, b: ArrayLike, confidence: float = 0.95) -> Interval:
@@ -140,21 +118,6 @@ def paired_shares(a: ArrayLike, b: ArrayLike, confidence: float = 0.95) -> Inter
     half = z * sqrt((up + down - (up - down) ** 2) / (n + 2))
     low, high = max(up - down - half, -1.0), min(up - down + half, 1.0)
     return Interval((more - less) / n, low, high, n)
-
-
-def unpaired_shares(a: ArrayLike, b: ArrayLike, confidence: float = 0.95) -> Interval:
-    """Return the share in a (n,) minus that in b (m,), both of 1 and 0, without pairs.
-
-    Source: R. G. Newcombe, Statistics in Medicine 17 (1998) 873, from two intervals of Wilson's.
-    """
-    first, second = shared(a, confidence), shared(b, confidence)
-    count = first.count + second.count
-    if not (first.count and second.count):
-        return Interval(nan, nan, nan, count)
-    mean = first.mean - second.mean
-    down = hypot(first.mean - first.low, second.high - second.mean)
-    up = hypot(first.high - first.mean, second.mean - second.low)
-    return Interval(mean, mean - down, mean + up, count)
 
 
 def shared(values: ArrayLike, confidence: float = 0.95) -> Interval:

@@ -158,14 +158,13 @@ def _needed(estimate: Estimate, values: Float, confidence: float) -> float:
 class Difference:
     """The difference of an estimate at a point from that at the first value of a setting.
 
-    found: the difference; its count is the number of pairs or, if `paired` is False because no two
-    runs have the same seed, of all runs. left_out: pairs of which a run failed or has no number.
+    found: the difference; its count is the number of pairs. left_out: runs without a partner of the
+    same seed, or of which one failed or has no number.
     """
 
     point: Point
     estimate: Estimate
     found: Interval
-    paired: bool
     left_out: int
 
 
@@ -187,8 +186,6 @@ def comparison(table: Table, setting: str, confidence: float = 0.95) -> str:
         title = with_unit(estimate.label, "points" if estimate.share else estimate.unit)
         counts = (
             f"{each.found.count}{f' ({each.left_out} left out)' if each.left_out else ''}"
-            if each.paired
-            else f"0 ({each.found.count} runs)"
             for each in mine
         )
         columns = [[title, *map(_verdict, mine)], ["pairs", *counts]]
@@ -242,15 +239,12 @@ def _difference(
     confidence: float,
 ) -> Difference:
     seeds = sorted({r.seed for r in results} & {r.seed for r in base})
-    if not seeds:
-        apart = estimate.apart(estimate.values(results), estimate.values(base), confidence)
-        return Difference(point, estimate, apart, paired=False, left_out=0)
     mine, theirs = (estimate.by_seed(runs) for runs in (results, base))
     a = np.array([mine.get(seed, nan) for seed in seeds])
     b = np.array([theirs.get(seed, nan) for seed in seeds])
     found = estimate.difference(a, b, confidence)
     left_out = len({r.seed for r in (*results, *base)}) - found.count
-    return Difference(point, estimate, found, True, left_out)
+    return Difference(point, estimate, found, left_out)
 
 
 def _verdict(each: Difference) -> str:
@@ -281,6 +275,4 @@ def _comparison_notes(found: Sequence[Difference], confidence: float) -> str:
     if any(each.left_out for each in found):
         notes.append("left out: pairs of which a run failed or has no number, so that a difference")
         notes.append("is of the others alone: read it beside the share of those with a number.")
-    if not all(each.paired for each in found):
-        notes.append("Runs without a seed in common are compared as they are (Welch, Newcombe).")
     return "\n".join(notes)

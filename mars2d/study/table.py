@@ -9,7 +9,6 @@ from __future__ import annotations
 import csv
 import dataclasses
 import io
-import re
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
@@ -34,9 +33,6 @@ Float = NDArray[np.float64]
 
 FIRST, SEED, LAST = ("row", "experiment"), "seed", ("digest", "code", "error")
 """The columns of every table; the settings stand before the seed, the measures after it."""
-
-FORMULA = re.compile("'*[=+@-]")
-"""The beginning of words that a spreadsheet takes for a formula, or that are quoted against it."""
 
 LINE_END = "\r\n"
 
@@ -165,8 +161,8 @@ def file_line(table: Table, result: Result) -> bytes:
     """Return a run's line in a table's file."""
     values = [cell(result.options[name]) for name in table.settings]
     found = (result.measures.get(name) for name in table.measures)
-    measured = ["" if v is None else word_cell(v) if isinstance(v, str) else str(v) for v in found]
-    error = word_cell(one_line(" ".join(result.error.split())))
+    measured = ["" if value is None else str(value) for value in found]
+    error = one_line(" ".join(result.error.split()))
     own = str(result.row), table.experiment
     return _line([*own, *values, str(result.seed), *measured, result.digest, result.code, error])
 
@@ -224,14 +220,14 @@ def _result(cells: list[str], blank: Table, width: int) -> Result:
     options = dict(zip(blank.settings, map(value_in, values), strict=True))
     measured = dict(zip(blank.measures, map(_measured, found), strict=True))
     digest, code, error = cells[-3:]
-    return Result(int(cells[0]), options, int(seed), measured, word_in(error), digest, code)
+    return Result(int(cells[0]), options, int(seed), measured, error, digest, code)
 
 
 def _measured(text: str) -> float | str | None:
     for kind in (int, float):
         with suppress(ValueError):
             return kind(text)
-    return word_in(text) or None
+    return text or None
 
 
 # -- cells -----------------------------------------------------------------------------------------
@@ -251,20 +247,6 @@ def cell(value: Any) -> str:
 def value_in(text: str) -> Any:
     """Return the value in a cell: a Python literal, or else a word."""
     return parse_option(f"_={text}")[1]
-
-
-def word_cell(text: str) -> str:
-    """Return words as the text of a cell, with a quote before anything that looks like a formula.
-
-    >>> [word_cell(text) for text in ("blue", "=1+1", "'=1+1", "-")]
-    ['blue', "'=1+1", "''=1+1", "'-"]
-    """
-    return f"'{text}" if FORMULA.match(text) else text
-
-
-def word_in(text: str) -> str:
-    """Return the words in a cell that `word_cell` wrote."""
-    return text[1:] if text[:1] == "'" and FORMULA.match(text) else text
 
 
 def cells_of(options: Mapping[str, Any]) -> tuple[str, ...]:

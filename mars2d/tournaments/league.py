@@ -18,7 +18,7 @@ from typing import Any
 from mars2d.core.errors import InputError, one_line
 from mars2d.core.files import atomic_write
 from mars2d.study.statistics import proportion
-from mars2d.study.table import cell, word_cell
+from mars2d.study.table import cell
 from mars2d.tournaments.match import Played
 from mars2d.tournaments.rating import MIDDLE, ratings
 from mars2d.tournaments.schedule import Schedule
@@ -269,10 +269,10 @@ def _grade(group: str, matches: Sequence[tuple[str, Played]], elo: float) -> dic
 
 
 def _cell(value: Any) -> str:
-    """Return a value as a cell of a table; words that look like formulas are quoted."""
+    """Return a value as a cell of a table."""
     if value is None or value != value:  # noqa: PLR0124 - nan
         return ""
-    return word_cell(one_line(" ".join(value.split()))) if isinstance(value, str) else cell(value)
+    return one_line(" ".join(value.split())) if isinstance(value, str) else cell(value)
 
 
 # -- the league as text ----------------------------------------------------------------------------

@@ -78,8 +78,7 @@ class Simulation(State):
         still = locked(np.zeros((scenario.inputs, n)))
         self.drives = Drives(drives, scenario.sampling_time, self.stream, still)
         delay = scenario.command_delay + self.drives.dead_time
-        self._delay = DelayLine(delay, scenario.sampling_time, still)
-        self._delayed = bool(delay.any())
+        self._delay = DelayLine(delay, scenario.sampling_time, still) if delay.any() else None
         self._inputs = [drive.inputs for drive in drives.values()]
         self.props = tuple(PropView(self, i) for i in range(len(scenario.props)))
         self.minds = [Mind(str(robot.name), self.stream) for robot in scenario.robots]
@@ -143,7 +142,7 @@ class Simulation(State):
     @property
     def drives_at_once(self) -> bool:
         """Whether its drives follow commands at once and exactly, so that they keep nothing."""
-        return self.drives.exact and not self._delayed
+        return self.drives.exact and self._delay is None
 
     @property
     def calls(self) -> tuple[int, int]:
@@ -384,8 +383,9 @@ class Simulation(State):
     def _twists(self) -> Iterator[tuple[float, Float]]:
         """Yield the twists (3, n) that the drives ask for, each with the seconds that it holds."""
         self.drives.draw()
-        for duration, command in self._delay.send(self.command):
-            yield from self.drives.drive(command, duration)
+        now = [(self.sampling_time, self.command)]
+        for part, command in now if self._delay is None else self._delay.send(self.command):
+            yield from self.drives.drive(command, part)
 
     # -- changes while it runs -------------------------------------------------------------------
 

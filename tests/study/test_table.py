@@ -40,18 +40,6 @@ def test_the_file_is_as_rfc_4180_has_it(path):
     ]
 
 
-def test_words_that_a_spreadsheet_would_run_have_a_quote_and_come_back_as_they_were(path):
-    """Words of measures and errors may come from laws."""
-    words = ("=1+1", "+1", "-", "@a", "'=1", "'", "''@", "a=1", "'a")
-    results = [
-        Result(k, {"n": 1, "red": "a"}, k, {"time": word, "won": word}, error=word)
-        for k, word in enumerate(words, 1)
-    ]
-    assert Table.load(of(*results).save(path)) == of(*results)
-    rows = [line.split(",") for line in path.read_text().splitlines()[1:]]
-    assert not any(row[k][:1] in ("=", "+", "-", "@") for row in rows for k in (5, 6, -1))
-
-
 @each_case(
     "data, said",
     [

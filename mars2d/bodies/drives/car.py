@@ -34,10 +34,8 @@ class Car(Turning):
         doc="bound of the rate of the steering angle; None: no bound",
     )  # fmt: skip
 
-    @property
-    def inputs(self) -> tuple[Quantity, ...]:
-        """V [m/s] and the steering angle delta [rad]."""
-        return Quantity("v", "m/s"), Quantity("delta", "rad", "angle")
+    inputs = (Quantity("v", "m/s"), Quantity("delta", "rad", "angle"))
+    """V [m/s] and the steering angle delta [rad]."""
 
     @property
     def rates(self) -> tuple[float | None, float | None]:

@@ -36,10 +36,8 @@ class Dubins(Turning):
                 "Dubins.max_acceleration", self.max_acceleration, "None: its speed never changes"
             )
 
-    @property
-    def inputs(self) -> tuple[Quantity, ...]:
-        """V [m/s] and omega [rad/s]."""
-        return Quantity("v", "m/s"), Quantity("omega", "rad/s")
+    inputs = (Quantity("v", "m/s"), Quantity("omega", "rad/s"))
+    """V [m/s] and omega [rad/s]."""
 
     @property
     def _most(self) -> float:

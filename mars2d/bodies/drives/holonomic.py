@@ -23,10 +23,8 @@ class Holonomic(Drive):
     frame: ClassVar[Literal["robot", "world"]] = "world"
     holonomic: ClassVar[bool] = True
 
-    @property
-    def inputs(self) -> tuple[Quantity, ...]:
-        """Vx and vy [m/s]."""
-        return Quantity("vx", "m/s"), Quantity("vy", "m/s")
+    inputs = (Quantity("vx", "m/s"), Quantity("vy", "m/s"))
+    """Vx and vy [m/s]."""
 
     def saturate(self, command: Float) -> Float:
         """Return commands (2, n) shortened to max_linear_speed where they are faster."""

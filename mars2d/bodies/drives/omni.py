@@ -53,10 +53,8 @@ class Omni(Drive):
                 expected = "None: its wheels drive and hold alike in all directions"
                 raise wrong(f"Omni.{name}", getattr(self, name), expected)
 
-    @property
-    def inputs(self) -> tuple[Quantity, ...]:
-        """Vx, vy [m/s] and omega [rad/s]."""
-        return Quantity("vx", "m/s"), Quantity("vy", "m/s"), Quantity("omega", "rad/s")
+    inputs = (Quantity("vx", "m/s"), Quantity("vy", "m/s"), Quantity("omega", "rad/s"))
+    """Vx, vy [m/s] and omega [rad/s]."""
 
     @property
     def rates(self) -> tuple[float | None, ...]:

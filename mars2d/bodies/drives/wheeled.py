@@ -10,6 +10,9 @@ from mars2d.bodies.drives.base import ROUNDING, STICK_TURN, Float, Turning
 from mars2d.core.description import choice, number
 from mars2d.core.quantity import Quantity
 
+TWIST = Quantity("v", "m/s"), Quantity("omega", "rad/s")
+"""The numbers of a command of two wheels."""
+
 
 class Wheeled(Turning):
     """The base of drives of two wheels on one axle, each of them an actuator.
@@ -33,7 +36,7 @@ class Wheeled(Turning):
     @property
     def inputs(self) -> tuple[Quantity, ...]:
         """V [m/s] and omega [rad/s]."""
-        return Quantity("v", "m/s"), Quantity("omega", "rad/s")
+        return TWIST
 
     def actuators(self, command: Float) -> Float:
         """Return the speeds (2, n) of the left and the right wheel's rim, m/s."""
