@@ -276,28 +276,20 @@ def _by_quantity(whole: Signal, sensor: Sensor | None, name: str, parts: list[st
                 f"columns: {name!r}: {part!r}: expected {' or '.join([*expected, *names])}"
             )
         elif axes:
-            signal = _indexed(signal, int(part))
+            values = signal.values[:, :, int(part)]
+            signal = replace(signal, name=f"{signal.name}.{part}", values=values)
         else:
             wanted = [int(part)]
+    kinds = [(each.unit, each.kind == "angle") for each in quantities]
     if not names:
-        return [_of_kind(signal, quantities[0])] if len(quantities) == 1 else [signal]
+        return [replace(signal, unit=unit, wraps=angle) for unit, angle in kinds] or [signal]
     return [
         replace(
-            _of_kind(signal, quantities[k]), name=f"{signal.name} {names[k]}",
-            values=signal.values[..., k],
+            signal, name=f"{signal.name} {names[k]}", values=signal.values[..., k],
+            unit=kinds[k][0], wraps=kinds[k][1],
         )
         for k in wanted
     ]  # fmt: skip
-
-
-def _of_kind(signal: Signal, quantity: Quantity) -> Signal:
-    """Return a signal with the unit of a quantity, and drawn as its kind requires."""
-    return replace(signal, unit=quantity.unit, wraps=quantity.kind == "angle")
-
-
-def _indexed(signal: Signal, index: int) -> Signal:
-    """Return one entry of a reading's first axis, for example one beam."""
-    return replace(signal, name=f"{signal.name}.{index}", values=signal.values[:, :, index])
 
 
 def without_nothing(signal: Signal) -> Signal:

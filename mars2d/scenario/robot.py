@@ -98,7 +98,7 @@ class Robot(Description):
     )  # fmt: skip
     name: str | None = text(default=None, optional=True, doc="its name, else robot0, robot1, ...")
     color: str | None = entry(
-        default=None, check=optional_color, doc="its colour, else from base_colors"
+        default=None, check=optional_color, doc="its colour; None: one of base_colors"
     )
 
     def at(self, x: float, y: float, theta: float = 0.0) -> Self:

@@ -7,13 +7,14 @@ from pathlib import Path
 
 import pygame
 
+from mars2d.output.controls import CONTROLS
 from mars2d.output.raster.layout import interface_scale
 from mars2d.scenario.examples import GAME, courses, examples, games, thumbnail_of, title_of
 from mars2d.window.screen.display import PICTURES_A_SECOND, started_display
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.memory import Memory
 from mars2d.window.screen.rest import Rest
-from mars2d.window.widgets.actions import of_controls
+from mars2d.window.widgets.actions import Action
 from mars2d.window.widgets.buttons import Buttons
 from mars2d.window.widgets.cards import Card, Page, Shelf
 from mars2d.window.widgets.notes import Notes
@@ -40,7 +41,10 @@ class Home:
         self.painter, self.size = self.looks.painter, memory.size
         self.page, self.search = Page(), TextField()
         self.choice: tuple[str, ...] | None = None
-        self._buttons = Buttons([of_controls(("dark", "text"), self.looks.actions, keys=False)])
+        looks = [(name, CONTROLS[name], self.looks.actions[name]) for name in ("dark", "text")]
+        self._buttons = Buttons(
+            [[Action(name, act=act, title=it.title, icon=it.icon) for name, it, act in looks]]
+        )
         self._open = True
         if note:
             self._notes.say(note, "error")

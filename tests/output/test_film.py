@@ -1,11 +1,12 @@
 """Films: read back what was written."""
 
-import builtins
+import sys
 
 import numpy as np
 import pygame
 import pytest
 from PIL import Image
+from pygame.surfarray import array3d
 
 import mars2d
 from mars2d import Robot, Scenario
@@ -19,6 +20,7 @@ from mars2d.output.films.film import (
     save_pictures,
 )
 from mars2d.output.films.footage import Drawings, shots
+from mars2d.output.raster.picture import Artist
 from mars2d.scenario.experiment import Experiment
 from mars2d.world.loop import simulate
 from tests.cases import each_case
@@ -53,17 +55,16 @@ def test_a_gif_holds_every_frame_for_its_time_and_repeats(tmp_path):
     assert {p.shape for p in pictures} == {(240, 320, 3)}
 
 
-def test_a_gif_shows_what_the_picture_shows(tmp_path):
-    from pygame.surfarray import array3d
-
-    from mars2d.output.raster.picture import Artist
-
-    save_film(frames(), tmp_path / "film.gif", size=SIZE, sensors=False)
+def painted():
+    """Return the pictures of the frames, (height, width, 3)."""
     artist = Artist(SIZE)
-    for picture, frame in zip(read_gif(tmp_path / "film.gif")[0], frames(), strict=True):
-        wanted = array3d(artist.paint(frame)).swapaxes(0, 1).astype(int)
-        error = np.abs(picture - wanted)
-        assert error.mean() < 0.5
+    return [array3d(artist.paint(frame)).swapaxes(0, 1).astype(int) for frame in frames()]
+
+
+def test_a_gif_shows_what_the_picture_shows(tmp_path):
+    save_film(frames(), tmp_path / "film.gif", size=SIZE, sensors=False)
+    for picture, wanted in zip(read_gif(tmp_path / "film.gif")[0], painted(), strict=True):
+        assert np.abs(picture - wanted).mean() < 0.5
         white = (wanted == 255).all(axis=2)
         assert (picture[white] == 255).all()
 
@@ -77,30 +78,18 @@ def test_frames_that_do_not_differ_prolong_the_one_before(tmp_path):
 
 
 def test_the_frames_of_an_mp4_are_the_pictures_in_their_order(tmp_path):
-    av = pytest.importorskip("av")
-    from pygame.surfarray import array3d
-
-    from mars2d.output.raster.picture import Artist
-
+    pytest.importorskip("av")
     save_film(frames(), tmp_path / "film.mp4", size=SIZE, sensors=False)
-    artist = Artist(SIZE)
-    drawn = [array3d(artist.paint(frame)).swapaxes(0, 1).astype(int) for frame in frames()]
-    with av.open(str(tmp_path / "film.mp4")) as film:
+    with av_open(tmp_path / "film.mp4") as film:
         shown = [f.to_ndarray(format="rgb24").astype(int) for f in film.decode(video=0)]
+    drawn = painted()
     apart = np.array([[np.abs(picture - wanted).mean() for wanted in drawn] for picture in shown])
     assert apart.argmin(axis=1).tolist() == list(range(21))
     assert apart.min(axis=1).max() < 2.0
 
 
 def test_mp4_without_pyav_says_what_to_install(tmp_path, monkeypatch):
-    usual = builtins.__import__
-
-    def without_av(name, *args, **kwargs):
-        if name == "av":
-            raise ImportError(name)
-        return usual(name, *args, **kwargs)
-
-    monkeypatch.setattr(builtins, "__import__", without_av)
+    monkeypatch.setitem(sys.modules, "av", None)
     with pytest.raises(MissingExtraError) as told:
         save_film(frames(), tmp_path / "film.mp4")
     assert pip_line("video") in str(told.value)
@@ -199,23 +188,14 @@ def av_open(path):
 @each_case(
     "name, options, told",
     [
-        ("a.gif", {"start": 5}, "a film from 5 s on: the record goes from 0 to 4 s"),
         ("a.gif", {"start": -1}, "a film from -1 s on: the record goes from 0 to 4 s"),
         ("a.gif", {"start": 1, "end": 9}, "a film from 1 to 9 s: the record goes from 0 to 4 s"),
-        ("a.gif", {"start": 3, "end": 2}, "a film from 3 to 2 s: expected an end after its start"),
         ("a.gif", {"start": 3, "end": 3}, "a film from 3 to 3 s: expected an end after its start"),
-        ("a.gif", {"start": "soon"}, "start = 'soon': expected seconds"),
         ("a.gif", {"end": float("nan")}, "end = nan: expected seconds, and finite"),
-        ("a.gif", {"speed": 0}, "speed = 0: expected a number > 0"),
         ("a.gif", {"speed": "max"}, "speed = 'max': expected a number > 0"),
         ("a.gif", {"speed": 1e-9}, "at most 100,000"),
         ("a.gif", {"fps": 60}, "fps = 60: expected 0.1 to 50 frames per second in a .gif"),
-        ("a.mp4", {"fps": 1000}, "fps = 1000: expected 0.1 to 240 frames per second in a .mp4"),
-        ("a.gif", {"fps": 1e-3}, "fps = 0.001: expected 0.1 to 50 frames"),
         ("a.gif", {"size": (63, 64)}, "size = (63, 64): expected (width, height) in pixels, 64 x"),
-        ("a.gif", {"size": (4000, 64)}, "64 x 64 to 3840 x 2160"),
-        ("a.gif", {"size": (64.5, 64)}, "size = (64.5, 64)"),
-        ("a.gif", {"size": 64}, "size = 64: expected (width, height)"),
         ("a.mp4", {"size": (641, 360)}, "expected even numbers of pixels for .mp4, such as 642"),
         ("a.avi", {}, "a.avi: expected a film's name to end in .gif or .mp4"),
     ],
@@ -234,13 +214,13 @@ def test_the_colours_of_an_mp4_are_those_of_the_picture(tmp_path):
 
     colors = ["#0072b2", "#d55e00", "#009e73", "#e69f00", "#ffffff", "#000000"]
 
-    def painted():
+    def striped():
         picture = pygame.Surface(SIZE, 0, 32)
         for k, color in enumerate(colors):
             picture.fill(color, (50 * k, 0, 50, 240))
         yield picture
 
-    save_pictures(painted(), tmp_path / "film.mp4")
+    save_pictures(striped(), tmp_path / "film.mp4")
     with av_open(tmp_path / "film.mp4") as film:
         shown = next(film.decode(video=0)).to_ndarray(format="rgb24").astype(int)
     for k, color in enumerate(colors):

@@ -114,16 +114,7 @@ def test_a_pushed_box_is_held_by_what_the_robot_can_push_with():
 
 @each_case(
     "force, text",
-    [
-        (0.123, "0.12 N"),
-        (0.997, "1.0 N"),
-        (4.96, "5.0 N"),
-        (9.81, "9.8 N"),
-        (9.96, "10 N"),
-        (56.2, "56 N"),
-        (999.7, "1 kN"),
-        (2400, "2.4 kN"),
-    ],
+    [(0.123, "0.12 N"), (0.997, "1.0 N"), (9.96, "10 N"), (999.7, "1 kN"), (2400, "2.4 kN")],
 )
 def test_forces_are_read_with_two_digits(force, text):
     assert in_newtons(force) == text

@@ -91,7 +91,7 @@ def show_only(tab, *layers):
 # -- time -----------------------------------------------------------------------------------------
 
 
-def test_buttons_move_the_time(tab):
+def test_buttons_and_keys_move_the_time(tab):
     assert (tab.row(), tab.text("#time")) == (0, "0.0 / 12.0 s")
     steps = {
         "One step on": 1, "To the end": 120, "One step back": 119, "To the start": 0,
@@ -102,9 +102,6 @@ def test_buttons_move_the_time(tab):
         assert tab.row() == row
         assert differing(tab.picture(), before) > 0 or row == 1
     assert tab.page.locator("#slider").get_attribute("aria-valuetext") == "0.0 s of 12.0 s"
-
-
-def test_keys_move_the_time_as_in_the_window(tab):
     keys = {"ArrowRight": 1, "PageDown": 11, "ArrowLeft": 10, "PageUp": 0, "End": 120, "Home": 0}
     for key, row in keys.items():
         tab.press(key)
@@ -276,15 +273,8 @@ def test_a_robot_is_picked_where_it_is_drawn_and_its_numbers_are_those_of_the_re
     tab.page.mouse.click(x, y - 90)  # beside it
     tab.settle()
     assert tab.page.locator("#panel").is_hidden()
-
-
-def test_a_body_is_picked_by_list(tab):
     tab.page.select_option("#bodies", label="crate")
     assert tab.text("#panel .kind") == "box"
-    tab.page.locator("#picture").click(position={"x": 20, "y": 20})
-    tab.page.select_option("#bodies", label=EVIL)
-    tab.settle()
-    assert tab.text("#panel h2") == EVIL
     tab.press("Escape")
     assert tab.page.locator("#panel").is_hidden()
 
@@ -357,11 +347,11 @@ def test_two_fingers_zoom_about_their_middle(open_tab, replay):
     assert tab.page.locator("#panel").is_hidden()  # a pinch picks nothing
 
 
-@pytest.mark.parametrize(("motion", "plays"), [("reduce", 0), ("no-preference", 1)])
-def test_it_begins_to_play_unless_motion_is_unwanted(open_tab, replay, motion, plays):
-    tab = open_tab(replay, reduced_motion=motion)
-    tab.settle()
-    assert tab.page.locator("body.playing").count() == plays
+def test_it_begins_to_play_unless_motion_is_unwanted(open_tab, replay):
+    for motion, plays in (("reduce", 0), ("no-preference", 1)):
+        tab = open_tab(replay, reduced_motion=motion)
+        tab.settle()
+        assert tab.page.locator("body.playing").count() == plays
 
 
 # -- words ----------------------------------------------------------------------------------------
@@ -393,15 +383,8 @@ def test_about_tells_where_the_run_comes_from(tab, record):
     assert tab.page.title() == f"Push & {EVIL}"  # names are text
     tab.click("About this run")
     said = tab.text("#telling")
-    words = [
-        "seed",
-        "7",
-        record.digest,
-        record.versions["pymunk"],
-        record.over_message,
-        "rounded by at most",
-    ]
-    for each in words:
+    told = record.digest, record.versions["pymunk"], record.over_message
+    for each in ("seed", "7", *told, "rounded by at most"):
         assert each in said
     tab.click("Close")
     assert tab.page.locator("#telling").is_hidden()

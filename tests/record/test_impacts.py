@@ -117,5 +117,5 @@ def test_a_figure_has_a_panel_for_each_of_the_hardest_with_its_table():
     cells = axes[0].tables[0].get_celld()
     assert cells[1, 0].get_text().get_text() == "before, along [m/s]"
     assert cells[1, 3].get_text().get_text() == "1 nearer"
-    with pytest.raises(InputError, match="axes: 1 of them, for 4 impacts"):
+    with pytest.raises(InputError, match="axes: 1 of them, for 4 panels of impacts"):
         record.plot_impacts(axes[:1])

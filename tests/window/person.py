@@ -260,7 +260,7 @@ class Person:
         self.press("ctrl+a")
         self.type(text)
         self.press("Return")
-        self.until(lambda s: s["prompt"] is None or s["error"])
+        self.until(lambda s: s["typed"] is None or s["error"])
 
     # -- events -----------------------------------------------------------------------------------
 

@@ -145,7 +145,7 @@ def of_run(window):
         "predictions": predictions_of(window._predictions),
         "filming": window.saver._film is not None,
         "game": None if window.game is None else game_of(window),
-        "editor": None if window.editor is None else editor_of(window.editor),
+        "editor": None if window.editor is None else of_editor(window.editor),
     }
 
 
@@ -182,22 +182,6 @@ def game_of(window):
     }
 
 
-def editor_of(editor):
-    desk = editor.desk
-    return {
-        "tool": editor.tool_name,
-        "robots": [robot.pose for robot in desk.draft.robots],
-        "walls": desk.draft.listed("wall"),
-        "outlines": desk.draft.listed("outline"),
-        "selection": desk.selection,
-        "corners": len(getattr(editor.tool, "corners", ())),
-        "prompt": None if editor.dialogs.prompt is None else editor.dialogs.prompt.label,
-        "fault": editor.judge.verdict.text,
-        "notice": desk.notice,
-        "camera": [desk.camera.scale, desk.camera.x, desk.camera.y],
-    }
-
-
 def of_comparison(window):
     player, trio = window.player, window.trio
     bar = window._controls.time_bar
@@ -208,7 +192,6 @@ def of_comparison(window):
         "newest": trio.newest,
         "playing": player.playing,
         "over": player.over,
-        "collisions": trio.collisions(player.frame.time),
         "scale": round(window.viewpoint.camera.scale, 3),
         "bar": [round(bar.x_of(0), 1), round(bar.x_of(trio.newest), 1), bar._line.centery],
         "arenas": {mode: plot.center for mode, plot in window.plots.items()},
@@ -223,7 +206,8 @@ def of_comparison(window):
 
 
 def of_editor(editor):
-    desk, draft = editor.desk, editor.desk.draft
+    desk, draft, prompt = editor.desk, editor.desk.draft, editor.dialogs.prompt
+    menu = {title: place.center for title, place in editor.menu.places.items()}
     return {
         "tool": editor.tool_name,
         "robots": [robot.pose for robot in draft.robots],
@@ -236,12 +220,12 @@ def of_editor(editor):
         "selection": desk.selection,
         "corner": desk.corner,
         "notice": desk.notice,
-        "fault": editor.judge.verdict.text,
-        "culprits": sorted(editor.judge.verdict.culprits),
-        "prompt": None if editor.dialogs.prompt is None else editor.dialogs.prompt.label,
-        "typed": typed_in(editor.dialogs.prompt),
-        "answers": answers_of(editor),
-        "error": None if editor.dialogs.prompt is None else editor.dialogs.prompt.error,
+        "fault": editor.verdict.text,
+        "culprits": sorted(editor.verdict.culprits),
+        "prompt": None if prompt is None else prompt.label,
+        "typed": None if prompt is None or prompt.field is None else prompt.text,
+        "answers": {} if prompt is None else menu,
+        "error": None if prompt is None else prompt.error,
         "help": editor.help.is_open,
         "laws": [law_of(robot) for robot in draft.robots],
         "drives": [repr(robot.drive) for robot in draft.robots],
@@ -252,26 +236,16 @@ def of_editor(editor):
         "idle": editor.properties.idle(draft),
         "panel": {title: place.center for title, place in editor.panel.places.items()},
         "rows": [[row.title, row.value] for row in editor.properties.rows()],
-        "menu": {title: place.center for title, place in editor.menu.places.items()},
+        "menu": menu,
         "chosen": (editor.menu if editor.menu.is_open else editor.panel).chosen,
         "focused": editor.panel.focused,
-        "snaps": desk.snaps,
         "step": desk.step,
         "changed": desk.history.changed,
-        "title": editor.title,
         "corners": len(getattr(editor.tool, "corners", ())),
         "scale": round(desk.camera.scale, 3),
         "origin": [round(desk.camera.x, 2), round(desk.camera.y, 2)],
+        "camera": [desk.camera.scale, desk.camera.x, desk.camera.y],
     }
-
-
-def typed_in(prompt):
-    return None if prompt is None or prompt.field is None else prompt.field.text
-
-
-def answers_of(editor):
-    asks = editor.dialogs.prompt is not None
-    return {each: place.center for each, place in editor.menu.places.items()} if asks else {}
 
 
 def law_of(robot):

@@ -50,6 +50,10 @@ def furnished():
     )
 
 
+def renamed(draft, robot, name):
+    return draft.with_members([Item("robot", robot)], lambda part: part.replace(name=name))
+
+
 def test_a_draft_keeps_the_order_and_the_fields_of_add_ons():
     scenario = furnished()
     draft = Draft(scenario).added("outline", ((-1, -1), (0, -1), (0, 0)))
@@ -58,10 +62,6 @@ def test_a_draft_keeps_the_order_and_the_fields_of_add_ons():
     chart = changed.addons[1]
     assert (chart.friction, len(chart.outlines), chart.walls) == (0.3, 2, scenario.addons[1].walls)
     assert changed.addons[2].tolerance == 0.2
-
-
-def test_without_obstacles_and_waypoints_their_add_ons_go():
-    draft = Draft(furnished())
     bare = draft.without([i for i in draft.items() if i.kind not in ("robot", "prop")])
     assert [addon.key for addon in bare.scenario().addons] == ["voronoi"]
 
@@ -71,7 +71,7 @@ def test_with_a_robot_go_its_route_and_its_joints():
     scenario = draft.scenario()
     assert draft.listed("waypoint") == ((),)
     assert scenario.joints == ()
-    assert draft.added("robot", Robot()).renamed(Item("robot", 1), "second").base.joints == ()
+    assert renamed(draft.added("robot", Robot()), 1, "second").base.joints == ()
     assert not any(isinstance(addon, Waypoints) for addon in scenario.addons)
     first = Draft(furnished()).without([Item("robot", 0)])
     (route,) = first.listed("waypoint")
@@ -140,7 +140,7 @@ def test_a_new_name_holds_wherever_the_body_is_mentioned():
         stop_on=[("robot0", "box0")],
     )
     draft = Draft(scenario)
-    draft = draft.renamed(Item("robot", 0), "Ada").renamed(Item("robot", 1), "Bo")
+    draft = renamed(renamed(draft, 0, "Ada"), 1, "Bo")
     assert [robot.name for robot in draft.robots] == ["Ada", "Bo", "robot2"]
     assert draft.robots[2].controller.leader == "Ada"
     assert draft.base.joints[0].a == "Bo"
@@ -150,7 +150,7 @@ def test_a_new_name_holds_wherever_the_body_is_mentioned():
     assert (game.hunted, estimate.robot) == (("Bo",), "Ada")
     assert (found.random_starts[0].bodies, found.stop_on) == (("Ada",), (("Ada", "box0"),))
     with pytest.raises(InputError, match="'Bo' is the name of another body"):
-        draft.renamed(Item("robot", 0), "Bo")
+        renamed(draft, 0, "Bo")
 
 
 def test_things_turn_about_a_point_and_come_back():
@@ -196,17 +196,10 @@ def test_a_waypoint_outside_the_workspace():
     assert fault(draft) == ("waypoint 0 of robot0 lies outside the workspace", outside)
 
 
-@each_case(
-    "outline, words",
-    [
-        (BOW, "obstacle 1: the polygon crosses or touches itself at (0.5, 0.5)"),
-        (((0, 0), (0, 0), (1, 1)), "obstacle 1: vertices 0 and 1 are the same"),
-    ],
-)
-def test_outlines_that_are_none(outline, words):
-    with pytest.raises(InputError) as refused:
-        Draft(furnished()).added("outline", outline)
-    assert str(refused.value).startswith(words)
+def test_outlines_that_are_none():
+    words = r"obstacle 1: the polygon crosses or touches itself at \(0.5, 0.5\)"
+    with pytest.raises(InputError, match=words):
+        Draft(furnished()).added("outline", BOW)
 
 
 # -- history, sketch, targets, prompts -------------------------------------------------------------
@@ -246,11 +239,11 @@ def test_the_grid_follows_the_zoom_and_points_are_tidy():
     assert desk.step == 0.002
 
 
-@each_case("end", [(2, 1), (-2, 1), (-2, -1), (2, -1)])
-def test_a_box_spans_two_corners_whichever_way(end):
-    box = spanned(Box(pose=(9, 9, pi / 2)), (0.0, 0.0), end)
-    assert (box.length, box.width) == (1, 2)
-    assert box.pose == pytest.approx((end[0] / 2, end[1] / 2, pi / 2))
+def test_a_box_spans_two_corners_whichever_way():
+    for end in ((2, 1), (-2, 1), (-2, -1), (2, -1)):
+        box = spanned(Box(pose=(9, 9, pi / 2)), (0.0, 0.0), end)
+        assert (box.length, box.width) == (1, 2)
+        assert box.pose == pytest.approx((end[0] / 2, end[1] / 2, pi / 2))
 
 
 def test_a_document_proposes_a_name_that_is_free_and_never_a_py(tmp_path, monkeypatch):
@@ -284,7 +277,7 @@ def test_a_draft_of_an_example_is_that_scenario_again_and_can_be_emptied(name):
     assert editor.desk.notice == ""
     editor.desk.put(editor.desk.draft.without(editor.desk.draft.items()))
     editor.draw(surface)
-    assert "no robot" in editor.judge.verdict.text
+    assert "no robot" in editor.verdict.text
 
 
 def test_the_keys_in_the_document_and_the_help_are_those_that_work():
@@ -305,10 +298,8 @@ def test_the_keys_in_the_document_and_the_help_are_those_that_work():
 @each_case(
     "key, typed, mod, name, live",
     [
-        ("v", "V", pygame.KMOD_SHIFT, "select", False),
         ("0", "=", pygame.KMOD_SHIFT, "pose", False),  # on a German keyboard
         ("z", "\x1a", pygame.KMOD_CTRL | pygame.KMOD_SHIFT, "redo", False),
-        ("return", "\r", 0, None, False),
         ("enter", "\r", pygame.KMOD_SHIFT, "start", True),
         ("f5", "", 0, None, True),
     ],

@@ -71,7 +71,7 @@ def faults_of_editor(size, text):
         yield f"the arena has {plot.width * plot.height / size[0] / size[1]:.2f} of the picture"
     buttons = [*editor._toolbar.places.items(), *editor._header.places.items()]
     yield from unfit([*buttons, ("the arena", plot)], picture)
-    for title in ("Mass", "Colour", "More"):
+    for title in ("Mass", "Color", "Drive", "Sensors"):
         if title in editor.panel.places:
             press(editor, editor.panel.places[title].center)
             editor.draw(surface)

@@ -87,6 +87,3 @@ def test_long_notes_are_wrapped_and_stay_within_the_picture(size, text):
     assert right <= plot.right
     assert bottom <= plot.bottom
     assert right - left <= 0.63 * plot.width
-
-
-# -- progress -------------------------------------------------------------------------------------

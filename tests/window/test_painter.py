@@ -13,6 +13,7 @@ from mars2d.core.errors import InputError
 from mars2d.core.scene import Scene, wake_style
 from mars2d.output.layers.table import Layers
 from mars2d.output.raster.camera import Camera
+from mars2d.output.raster.layout import fitted
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.picture import Artist, paint_frame, save_png
 from mars2d.output.raster.stage import Stage
@@ -123,11 +124,8 @@ def differing(a, b):
 
 
 def test_a_picture_shows_the_robots_where_they_are():
-    now = frame()
-    artist = Artist()
+    now, artist = frame(), Artist()
     surface = artist.paint(now)
-    from mars2d.output.raster.layout import fitted
-
     camera = fitted(now.scenario.bounds, (1280, 720), artist.layout)
     behind = now.pose[:2] - 0.15 * np.array([np.cos(now.pose[2]), np.sin(now.pose[2])])
     for point, color in zip(behind.T, now.scenario.colors, strict=True):
@@ -137,16 +135,9 @@ def test_a_picture_shows_the_robots_where_they_are():
 
 @each_case(
     "changed",
-    [
-        {"grid": False},
-        {"show_initial_pose": False},
-        {"show_real_shape": False},
-        {"wake": False},
-        {"wake_style": "--"},
-        {"wake_style": "o"},
-        {"base_colors": ["red", "green"]},
-    ],
-)
+    [{"grid": False}, {"show_initial_pose": False}, {"show_real_shape": False}, {"wake": False},
+     {"wake_style": "--"}, {"wake_style": "o"}, {"base_colors": ["red", "green"]}],
+)  # fmt: skip
 def test_every_animation_field_changes_the_picture(changed):
     usual = paint_frame(frame())
     assert differing(usual, paint_frame(frame(animation=Animation(**changed)))) > 100
@@ -158,15 +149,6 @@ def test_the_message_of_the_end_stands_in_a_banner():
     before, after = paint_frame(frame(row=99)), paint_frame(source.frame)
     assert after.get_at((640, 710))[:3] == (0x24, 0x3B, 0x53)
     assert before.get_at((640, 710))[:3] == (255, 255, 255)
-
-
-def test_going_back_in_time_shortens_the_paths():
-    source = Circling()
-    artist = Artist()
-    source.row = 80
-    artist.paint(source.frame)
-    source.row = 20
-    assert differing(artist.paint(source.frame), paint_frame(source.frame)) == 0
 
 
 def test_a_picture_is_saved_as_png(tmp_path):
@@ -263,21 +245,12 @@ def test_forces_are_off_unless_they_are_asked_for():
     assert differing(paint_frame(animated, forces=False), plain) == 0
 
 
-def test_props_and_their_trails_grow_on_the_picture():
+def test_props_have_trails_if_they_moved():
     scenario = Scenario(robots=[Robot(pose=(-4, -4, 0))], props=[Box(pose=(0, 0, 0))])
-    frame = World(scenario).frame
-    path = np.zeros((50, 3, 1))
+    frame, path = World(scenario).frame, np.zeros((50, 3, 1))
     path[:, 0, 0] = np.linspace(-3, 2, 50)
+    moved = replace(frame, path=np.repeat(frame.pose[None], 50, axis=0), prop_pose=path[-1])
     artist = Artist()
-    moved = replace(frame, path=np.repeat(frame.pose[None], 50, axis=0))
-    still = artist.paint(replace(moved, prop_pose=path[-1]))
-    grown = [
-        artist.paint(
-            replace(frame, path=moved.path[:k], prop_path=path[:k], prop_pose=path[min(k, 49)])
-        )
-        for k in (1, 20, 49)
-    ]
-    trailed = [differing(still, surface) for surface in grown]
-    assert trailed[2] > 200
-    bare = artist.paint(replace(moved, prop_pose=path[-1]))
-    assert differing(bare, still) == 0, "no path, no trail"
+    still, again = artist.paint(moved), artist.paint(moved)
+    assert differing(again, still) == 0, "no path, no trail"
+    assert differing(artist.paint(replace(moved, prop_path=path)), still) > 200

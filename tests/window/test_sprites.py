@@ -6,12 +6,13 @@ import pytest
 
 from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
-from mars2d.output.raster.painter import Painter, Sprites
+from mars2d.output.raster.painter import Painter
 from mars2d.scenario.animation import Animation
 from mars2d.sensors import Proximity, RangeFinder
 from mars2d.window.run.window import Window
 from mars2d.window.screen.source import Playback
 from tests.cases import each_case
+from tests.window.written import pixels
 
 STEPS = 60
 
@@ -21,12 +22,12 @@ def sprite(width, height):
 
 
 def test_a_full_store_is_emptied_and_what_is_too_large_is_not_kept():
-    sprites = Sprites(300)
+    painter = Painter(kept=300)
     for name in "abcd":
-        sprites.keep(name, sprite(10, 10))
-    assert (list(sprites), sprites.kept) == (["d"], 100)
-    sprites.keep("e", sprite(20, 20))
-    assert (list(sprites), sprites.kept) == ([], 0)
+        painter._store(name, sprite(10, 10))
+    assert list(painter._sprites) == ["d"]
+    painter._store("e", sprite(20, 20))
+    assert not painter._sprites
 
 
 # -- pictures -------------------------------------------------------------------------------------
@@ -82,43 +83,20 @@ class Viewer:
                 self.draw()
 
 
-def zoom(viewer):
-    viewer.window.viewpoint._look(viewer.window.camera.zoomed((500, 300), 3.0))
+SITUATIONS = {
+    "nothing": lambda viewer: None,
+    "zoom": lambda viewer: look(viewer, viewer.window.camera.zoomed((500, 300), 3.0)),
+    "pan": lambda viewer: look(viewer, viewer.window.camera.panned(130.3, -61.7)),
+    "select": lambda viewer: viewer.window.select(2),
+    "restart": lambda viewer: viewer.window.player.restart(),
+    "resize": lambda viewer: setattr(viewer, "size", (700, 640)),
+    "no paths": lambda viewer: viewer.window._toggle("trails"),
+    "pause": lambda viewer: viewer.window.player.pause_or_resume(),
+}
 
 
-def pan(viewer):
-    viewer.window.viewpoint._look(viewer.window.camera.panned(130.3, -61.7))
-
-
-def select(viewer):
-    viewer.window.select(2)
-
-
-def restart(viewer):
-    viewer.window.player.restart()
-
-
-def resize(viewer):
-    viewer.size = (700, 640)
-
-
-def without_paths(viewer):
-    viewer.window._toggle("trails")
-
-
-def pause(viewer):
-    viewer.window.player.pause_or_resume()
-
-
-def nothing(viewer):
-    pass
-
-
-SITUATIONS = [nothing, zoom, pan, select, restart, resize, without_paths, pause]
-
-
-def pixels(surface):
-    return pygame.surfarray.array3d(surface).astype(int)
+def look(viewer, camera):
+    viewer.window.viewpoint._look(camera)
 
 
 @pytest.mark.nightly
@@ -127,7 +105,7 @@ def test_what_is_kept_changes_no_pixel(record, situation):
     kept, plain = Viewer(record), Viewer(record, plain=True)
     for viewer in (kept, plain):
         viewer.play(20, draw=True)
-        situation(viewer)
+        SITUATIONS[situation](viewer)
         viewer.play(5, draw=True)
     assert len(kept.window._painter._sprites) > 0
     assert len(plain.window._painter._sprites) == 0

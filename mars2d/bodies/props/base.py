@@ -87,7 +87,7 @@ class Prop(Description):
         doc="friction on the floor at rest; None: as ground_friction",
     )  # fmt: skip
     name: str | None = text(default=None, optional=True, doc="its name, else box0, ball1, ...")
-    color: str | None = entry(default=None, check=optional_color, doc="its colour")
+    color: str | None = entry(default=None, check=optional_color, doc="its colour; None: automatic")
 
     def _validate(self) -> None:
         kind = type(self).__name__

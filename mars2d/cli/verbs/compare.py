@@ -22,7 +22,8 @@ from mars2d.cli.runs import has_display, run_headless
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.progress import progress
 from mars2d.core.terminal import aligned, tell
-from mars2d.output.figures.comparison import MODES, Drift, save_comparison
+from mars2d.output.figures.comparison import MODES, Drift, plot_comparison
+from mars2d.output.figures.figure import save_drawing
 from mars2d.output.films.footage import Cut
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.window.screen.source import Playback
@@ -52,7 +53,7 @@ def execute(arguments: argparse.Namespace) -> None:
     records = {mode: _run(opened(mode), mode) for mode in MODES}
     tell(_as_table(records))
     makers = {
-        "figure": lambda: save_comparison(records, arguments.figure),
+        "figure": lambda: save_drawing(lambda: plot_comparison(records), arguments.figure),
         "video": lambda: _save_film(records, arguments),
     }
     conclude(*produced(arguments, makers))
@@ -111,8 +112,7 @@ def _as_table(records: Mapping[str, Record]) -> str:
         if mode != "contact":  # less than a micrometre is rounding
             drift = Drift.between(records["contact"], record)
             apart = [f"{round(float(x[-1]), 6):.3g} m" for x in (drift.max, drift.mean)]
-        steps = max(len(record) - 1, 0)
-        lines.append([mode, f"{steps}", f"{record.collisions}", *apart])
+        lines.append([mode, f"{max(len(record) - 1, 0)}", f"{record.collisions}", *apart])
         ends.append(record.over_message)
     first = records["contact"]
     title = f"{first.scenario.title}, seed {first.seed}"

@@ -6,7 +6,6 @@ import textwrap
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import reduce
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,7 +13,7 @@ from numpy.typing import NDArray
 
 from mars2d.core.errors import counted
 from mars2d.output.figures.extent import View
-from mars2d.output.figures.figure import dress, label, new_figure, paint_frame, save_drawing
+from mars2d.output.figures.figure import dress, label, new_figure, paint_frame
 from mars2d.output.figures.legend import Entry, add_legend
 from mars2d.output.figures.panels import caption, frame_panel, say
 from mars2d.output.figures.style import INK, MUTED, points
@@ -81,14 +80,6 @@ def drifts(records: Mapping[str, Rows]) -> dict[str, Drift]:
 
 WIDTH, DRIFT = 11.0, 1.9
 """The width of the figure and the height of the drift, inches."""
-
-
-def save_comparison(records: Mapping[str, Rows], path: str | Path) -> Path:
-    """Save the figure of a comparison as .png, .pdf or .svg and return its path.
-
-    Raises InputError for another suffix or a path that can't be written.
-    """
-    return save_drawing(lambda: plot_comparison(records), path)
 
 
 def plot_comparison(records: Mapping[str, Rows]) -> Figure:

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mars2d.core.errors import InputError, counted
-from mars2d.output.figures.figure import check_axes, new_figure, show_in_notebooks
+from mars2d.core.errors import InputError
+from mars2d.output.figures.figure import new_figure, show_in_notebooks
 from mars2d.output.figures.legend import plain_name
+from mars2d.output.figures.panels import checked_axes
 from mars2d.output.figures.style import GRID, INK, MUTED, SMALL, curve_color, points
 from mars2d.record.impacts import card
 
@@ -47,13 +48,9 @@ def plot_impacts(record: Rows, axes: Sequence[Axes] | None = None) -> list[Axes]
         for ax in axes[len(found) :]:
             ax.remove()
         axes = axes[: len(found)]
-        for ax in axes:
-            show_in_notebooks(ax)
-    axes = list(np.ravel(np.asarray(axes, dtype=object)))
-    if len(axes) != len(found):
-        raise InputError(f"axes: {len(axes)} of them, for {counted(len(found), 'impact')}")
+        show_in_notebooks(*axes)
+    axes = checked_axes(axes, len(found), "of impacts")
     for ax, impact in zip(axes, found, strict=True):
-        check_axes(ax)
         _panel(ax, record.scenario, impact)
     return axes
 

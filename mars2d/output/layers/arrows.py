@@ -54,14 +54,8 @@ def arrow(
 ) -> None:
     """Draw an arrow from a point along `way`, both (2,) metres; a cut says that it is shortened."""
     scene.arrow(start, start + way, fill=fill, stroke=edge, width=width)
-    if shortened:
-        _cut(scene, start, way)
-
-
-def _cut(scene: Scene, start: Float, way: Float) -> None:
-    """Draw a gap across an arrow that is not as long as it should be."""
     slant = 0.06 * np.array([way[0] - way[1], way[0] + way[1]])
-    for share in (0.42, 0.5):
+    for share in (0.42, 0.5) if shortened else ():
         middle = start + share * way
         scene.line([middle - slant, middle + slant], stroke=EDGE, width=CUT_WIDTH)
 

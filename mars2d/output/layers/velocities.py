@@ -36,7 +36,8 @@ def speed_scale(scenario: Scenario) -> Ruler:
     length, crowd = usual_length(scenario, 2.0, 0.08), crowd_factor(scenario) ** 0.5
     fastest = max(robot.drive.max_linear_speed for robot in scenario.robots)
     width, unit = ARROW_WIDTH / crowd**0.5, length / fastest / crowd
-    return Ruler(VELOCITY, width, unit, LONGEST * length / crowd, in_metres_a_second, fastest)
+    longest = LONGEST * length / crowd
+    return Ruler(VELOCITY, width, unit, longest, lambda speed: f"{as_read(speed)} m/s", fastest)
 
 
 def velocities(frame: Frame) -> Scene:
@@ -68,8 +69,3 @@ def _tightest_turns(scene: Scene, frame: Frame) -> None:
         for side in (-radius, radius) if radius else ():
             center = x - side * np.sin(theta), y + side * np.cos(theta)
             scene.circle(center, radius, stroke=TIGHTEST, width=1.0)
-
-
-def in_metres_a_second(speed: float) -> str:
-    """Return a speed as it is read: 0.25 m/s, 4.9 m/s, 12 m/s."""
-    return f"{as_read(speed)} m/s"

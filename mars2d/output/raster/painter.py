@@ -51,33 +51,6 @@ Sprite = tuple[pygame.Surface, int, int]
 """A small picture, and the offset of its corner from the whole pixel at which it is drawn."""
 
 
-class Sprites(dict[Hashable, Sprite]):
-    """A cache of sprites with at most `pixels` pixels in total; when it is full, it is emptied.
-
-    It only saves time: pictures are the same without it.
-    """
-
-    def __init__(self, pixels: int) -> None:
-        """Start with none; `pixels` may be 0."""
-        super().__init__()
-        self.pixels, self.kept = pixels, 0
-
-    def keep(self, key: Hashable, sprite: Sprite) -> None:
-        """Keep a sprite under a new key, if there is room for it at all."""
-        self.kept += _area(sprite)
-        if self.kept > self.pixels:
-            self.clear()
-            self.kept = _area(sprite)
-        if self.kept <= self.pixels:
-            self[key] = sprite
-        else:
-            self.kept = 0
-
-
-def _area(sprite: Sprite) -> int:
-    return sprite[0].get_width() * sprite[0].get_height()
-
-
 class Painter:
     """Paints shapes, and keeps sprites and texts from one picture to the next.
 
@@ -93,7 +66,8 @@ class Painter:
         self.ui = 1.0
         self.theme = theme
         self._shade: Callable[[str], str] = theme.shade
-        self._sprites = Sprites(kept)
+        self._sprites: dict[Hashable, Sprite] = {}
+        self._most, self._kept = kept, 0
 
     def paint(
         self,
@@ -329,8 +303,7 @@ class Painter:
             rim, steps = self.fonts.render(text, size, halo), (0, reach, 2 * reach)
             label.fblits((rim, (dx, dy)) for dx in steps for dy in steps)
             label.blit(letters, (reach, reach))
-            sprite = label, 0, 0
-            self._sprites.keep(key, sprite)
+            sprite = self._store(key, (label, 0, 0))
         return sprite[0]
 
     # -- images -------------------------------------------------------------------------------
@@ -390,15 +363,24 @@ class Painter:
 
     def _keep(self, key: Hashable, box: pygame.Rect, layers: Sequence[Layer]) -> Sprite:
         """Draw a sprite from its layers, the first lowest, and keep it."""
-        finer = _sprite_factor(box)
+        finer = 8 if box.width * box.height < 1600 else 4
         images = [
             brushes.layer(color, box, draw, factor or finer) for color, draw, factor in layers
         ]
         image = images[0]
         for above in images[1:]:
             image.blit(above, (0, 0))
-        sprite = image, box.left, box.top
-        self._sprites.keep(key, sprite)
+        return self._store(key, (image, box.left, box.top))
+
+    def _store(self, key: Hashable, sprite: Sprite) -> Sprite:
+        """Keep a sprite; all others go where they would be too many pixels."""
+        area = sprite[0].get_width() * sprite[0].get_height()
+        if self._kept + area > self._most:
+            self._sprites.clear()
+            self._kept = 0
+        if area <= self._most:
+            self._sprites[key] = sprite
+            self._kept += area
         return sprite
 
 
@@ -419,10 +401,6 @@ def _cells(start: float, size: float, count: int, low: int, high: int) -> tuple[
     pixels. low, high: the screen pixels in sight.
     """
     return max(floor((low - start) / size), 0), min(ceil((high - start) / size), count)
-
-
-def _sprite_factor(box: pygame.Rect) -> int:
-    return 8 if box.width * box.height < 1600 else 4
 
 
 def _phase(value: float) -> tuple[int, float]:

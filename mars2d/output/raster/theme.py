@@ -61,7 +61,7 @@ class Theme(NamedTuple):
         Scenes are made for white paper. On dark paper the lightness is inverted: black becomes
         white, and white the paper; the hue stays.
         """
-        return on_dark(color, self.paper) if self.dark else color
+        return _on_dark(color, self.paper) if self.dark else color
 
     def shade_pixels(self, pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
         """Return an image (..., 3 or 4) in this theme, by the same rule; its opacity stays."""
@@ -78,7 +78,7 @@ def mixed(color: str, ground: str, share: float) -> str:
 
 
 @lru_cache(maxsize=4096)
-def on_dark(color: str, paper: str) -> str:
+def _on_dark(color: str, paper: str) -> str:
     """Return a colour converted for dark paper: white becomes the paper itself; opacity stays."""
     return color_of(_inverted(np.array(rgb(color)), paper).tolist()) + color[7:]
 

@@ -72,9 +72,16 @@ def actions_of(editor: Editor) -> dict[str, tuple[Action, ...]]:
         labels = ("←", "→", "↑", "↓") if keys == "arrows" else (keys,)
         return Action(name, words, labels, act, also, **more)
 
-    def button(name: str, keys: str, words: str, act: Callable[[], object]) -> Action:
-        on = partial(editor.is_on, name)
+    def button(
+        name: str, keys: str, words: str, act: Callable[[], object], on: Callable[[], bool]
+    ) -> Action:
         return key(name, keys, words, act, title=words.capitalize(), icon=ICONS[name], on=on)
+
+    def chosen(name: str) -> bool:
+        return name == editor.tool_name
+
+    def switch(whole: object, name: str) -> None:
+        setattr(whole, name, not getattr(whole, name))
 
     here = (
         key("now", "Enter", "go on from now with the drawing", partial(dialogs.apply, "now"),
@@ -92,7 +99,7 @@ def actions_of(editor: Editor) -> dict[str, tuple[Action, ...]]:
               title="Run", on=lambda: not history.changed)  # fmt: skip
     return {
         "Tools": tuple(
-            button(name, letter, words, partial(editor.choose, name))
+            button(name, letter, words, partial(editor.choose, name), partial(chosen, name))
             for name, letter, _, words in TOOLS
         ),
         "Change": (
@@ -109,15 +116,17 @@ def actions_of(editor: Editor) -> dict[str, tuple[Action, ...]]:
             key("next", "Tab", "select the next item", editor.select_next),
             key("more", "Shift Tab", "select the next item, too",
                 partial(editor.select_next, too=True)),
-            key("properties", "F2", "choose a property to change", editor.reach_panel),
+            key("properties", "F2", "choose a property to change",
+                partial(setattr, editor.panel, "focused", True)),
             key("undo", "Ctrl Z", "undo", editor.undo,
                 title="Undo", when=lambda: history.has(-1), repeats=True),
             key("redo", "Ctrl Y", "redo", desk.redo, "Ctrl Shift Z",
                 title="Redo", when=lambda: history.has(1), repeats=True),
         ),
         "Look": (
-            button("snap", "G", "snap to the grid on and off", editor.switch_grid),
-            key("names", "I", "names on and off", editor.switch_names),
+            button("snap", "G", "snap to the grid on and off", partial(switch, desk, "snaps"),
+                   lambda: desk.snaps),
+            key("names", "I", "names on and off", partial(switch, editor, "names")),
             key("fit", "F", "fit the workspace into the window", lambda: fit(desk.draft.sketch)),
             key("nearer", "Ctrl +", "zoom in", partial(zoom, 2.0), "Ctrl =", "Ctrl [+]"),
             key("farther", "Ctrl \N{MINUS SIGN}", "zoom out", partial(zoom, -2.0), "Ctrl [-]"),

@@ -19,19 +19,14 @@ MAX_DRAFTS = 500
 
 
 class History:
-    """A list of drafts, and the index of the present one; saved: that of the file, if any."""
+    """The drafts so far: those to undo, the present one, those to redo; saved: that of the file."""
 
     def __init__(self, draft: Draft) -> None:
         """Start with a draft that counts as saved."""
-        self._drafts = [draft]
-        self._place = 0
-        self._tag = ""
+        self.draft, self._tag = draft, ""
         self.saved: Draft | None = draft
-
-    @property
-    def draft(self) -> Draft:
-        """The present draft."""
-        return self._drafts[self._place]
+        self._past: list[Draft] = []
+        self._ahead: list[Draft] = []
 
     @property
     def changed(self) -> bool:
@@ -42,25 +37,27 @@ class History:
         """Continue with a draft. Consecutive changes with the same tag are undone as one."""
         if draft == self.draft:
             return
-        merges = bool(tag) and tag == self._tag and self._place + 1 == len(self._drafts)
-        end = self._place if merges else self._place + 1
-        self._drafts[end:] = [draft]
-        del self._drafts[:-MAX_DRAFTS]
-        self._place, self._tag = len(self._drafts) - 1, tag
+        if not tag or tag != self._tag:
+            self._past = [*self._past, self.draft][-MAX_DRAFTS:]
+        self._ahead, self.draft, self._tag = [], draft, tag
 
     def has(self, by: int) -> bool:
-        """Return whether there are so many changes to redo, or for numbers below 0 to undo."""
-        return 0 <= self._place + by < len(self._drafts)
+        """Return whether there is a change to redo, or for a number below 0 to undo."""
+        return bool(self._ahead if by > 0 else self._past)
 
     def go(self, by: int) -> bool:
-        """Undo or redo changes; return whether there were that many."""
-        there, self._tag = self.has(by), ""
-        self._place += by if there else 0
-        return there
+        """Redo a change, or undo one for a number below 0; return whether there was one."""
+        source, target = (self._ahead, self._past) if by > 0 else (self._past, self._ahead)
+        self._tag = ""
+        if source:
+            target.append(self.draft)
+            self.draft = source.pop()
+            return True
+        return False
 
     def save(self, saved: Draft) -> None:
         """Count the present draft as saved; saved: it, with the title that it has got."""
-        self._drafts[self._place] = self.saved = saved
+        self.draft = self.saved = saved
         self._tag = ""
 
 
@@ -182,9 +179,8 @@ class Desk:
         if len(corners) == least:
             self.say(f"{self.draft.name(item)} needs {least} corners", warns=True)
             return
-        left = (*corners[: self.corner], *corners[self.corner + 1 :])
-        self.corner = None
-        self.put(self.draft.with_values({item: left}))
+        number, self.corner = self.corner, None
+        self.put(self.draft.with_corner(item, number))
 
     def duplicate(self) -> None:
         """Put a copy beside the selection, and select it; of a corner, half-way to the next one."""
@@ -193,8 +189,7 @@ class Desk:
             a, b = corners[self.corner], corners[(self.corner + 1) % len(corners)]
             middle = tidy((a[0] + b[0]) / 2), tidy((a[1] + b[1]) / 2)
             self.corner += 1
-            new = (*corners[: self.corner], middle, *corners[self.corner :])
-            self.put(self.draft.with_values({self.only: new}))
+            self.put(self.draft.with_corner(self.only, self.corner - 1, a, middle))
             return
         items = [item for item in self.selection if item.kind != "workspace"]
         if items:
@@ -209,9 +204,8 @@ class Desk:
         step = self.step * (0.1 if fine else 1.0)
         moved = Motion(by=(dx * step, dy * step))
         if self.corner is not None and self.only is not None:
-            corners = list(self.draft.corners(self.only) or ())
-            corners[self.corner] = moved.point(corners[self.corner])
-            self.put(self.draft.with_values({self.only: tuple(corners)}), tag="nudge")
+            place = moved.point((self.draft.corners(self.only) or ())[self.corner])
+            self.put(self.draft.with_corner(self.only, self.corner, place), tag="nudge")
         elif self.selection:
             self.put(self.draft.moved(self.selection, moved), tag="nudge")
 

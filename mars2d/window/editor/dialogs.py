@@ -12,7 +12,6 @@ from mars2d.scenario.changes import check_same
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.document import Document
-from mars2d.window.editor.verdict import Judge
 from mars2d.window.widgets.menu import Menu
 from mars2d.window.widgets.prompt import Answer, Prompts
 from mars2d.window.widgets.text_field import TextField
@@ -39,7 +38,6 @@ class Dialogs(Prompts):
         desk: Desk,
         menu: Menu,
         document: Document,
-        judge: Judge,
         before: Scenario,
         *,
         live: bool,
@@ -50,13 +48,13 @@ class Dialogs(Prompts):
         self.done = False
         self.outcome: Outcome | None = None
         self.to_run: Path | None = None
-        self._desk, self._document, self._judge = desk, document, judge
+        self._desk, self._document = desk, document
         self._before, self._live, self._complete = before, live, complete
 
     def _valid(self, doing: str) -> Scenario | None:
         """Return the scenario; show why there is none if the draft is not valid."""
         self._complete()
-        verdict = self._judge.of(self._desk.draft)
+        verdict = self._desk.draft.verdict
         if verdict.scenario is None:
             self._desk.say(f"{doing}: {verdict.text}", warns=True)
         return verdict.scenario
@@ -113,7 +111,7 @@ class Dialogs(Prompts):
         if self._live or not history.changed:
             return None
         self._desk.drop()
-        while (scenario := self._judge.of(history.draft).scenario) is None:
+        while (scenario := history.draft.verdict.scenario) is None:
             if not history.go(-1):
                 return None
         return self._document.rescue(scenario)

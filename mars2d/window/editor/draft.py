@@ -28,6 +28,7 @@ from mars2d.scenario.random_starts import RandomStarts
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor.item import Item, Kind, Motion
+from mars2d.window.editor.verdict import Verdict, judge
 
 FIELDS: dict[Kind, tuple[type[Any], str]] = {
     "robot": (Scenario, "robots"), "prop": (Scenario, "props"),
@@ -72,6 +73,11 @@ class Draft:
         """The draft without add-ons other than those that are drawn with the mouse."""
         drawn = (addon for addon in self.base.addons if isinstance(addon, (Map, Waypoints, Beacon)))
         return self.with_base(addons=tuple(drawn))
+
+    @cached_property
+    def verdict(self) -> Verdict:
+        """Whether it is a valid scenario."""
+        return judge(self)
 
     def frame(self) -> Frame:
         """Return the instant before the start."""
@@ -191,11 +197,6 @@ class Draft:
         robots = [str(robot.name) for robot in self.robots]
         return [(each, each.bodies or robots) for each in self.base.random_starts]
 
-    def joints_of(self, item: Item) -> tuple[Joint, ...]:
-        """Return the joints that hold a robot or prop."""
-        name = self.name(item)
-        return tuple(joint for joint in self.base.joints if name in (joint.a, joint.b))
-
     def bounds(self, items: Collection[Item]) -> tuple[float, float, float, float]:
         """Return (xmin, xmax, ymin, ymax) of items, metres."""
         points: list[Point] = []
@@ -265,6 +266,11 @@ class Draft:
             draft = draft.with_list(kind, listed)
         return draft
 
+    def with_corner(self, item: Item, number: int, *new: Point) -> Self:
+        """Return the draft with any number of corners in place of one of an outline."""
+        corners = self.corners(item) or ()
+        return self.with_values({item: (*corners[:number], *new, *corners[number + 1 :])})
+
     def moved(self, items: Collection[Item], motion: Motion) -> Self:
         """Return the draft with items moved. Bodies that started at random start there now."""
         draft = self.with_values({item: self._moved_one(item, motion) for item in items})
@@ -309,19 +315,24 @@ class Draft:
         return (*self.robots, *self.props)
 
     def with_members(self, items: Collection[Item], change: Callable[[Any], Robot | Prop]) -> Self:
-        """Return the draft with robots or props changed, each by a function of itself."""
-        draft = self.with_values({item: change(self.value(item)) for item in items})
-        return draft._pinned({self.name(item) for item in items})
+        """Return the draft with robots or props changed, each by a function of itself.
 
-    def renamed(self, item: Item, name: str) -> Self:
-        """Return the draft with another name of a robot or prop, wherever it is mentioned."""
-        old = self.name(item)
-        if not name:
-            raise InputError("expected a name")
-        if name in {part.name for part in self._members()} - {old}:
-            raise InputError(f"{name!r} is the name of another body")
-        anew = self.with_base(**self.base.mentions(old, name))
-        return anew.with_members([item], lambda part: part.replace(name=name))
+        A new name is put wherever the old one is mentioned.
+        """
+        values = {item: change(self.value(item)) for item in items}
+        draft = self
+        for item, part in values.items():
+            old, new = self.name(item), (part.name or "").strip()
+            if new == old:
+                continue
+            if not new or new in {other.name for other in draft._members()}:
+                raise InputError(
+                    f"{new!r} is the name of another body" if new else "expected a name"
+                )
+            values[item] = part.replace(name=new)
+            draft = draft.with_base(**draft.base.mentions(old, new))
+        draft = draft.with_values(values)
+        return draft._pinned({draft.name(item) for item in items})
 
     def with_joint(self, joint: Joint | None, instead: Joint | None = None) -> Self:
         """Return the draft with one more joint, or with one in place of another; None: without."""

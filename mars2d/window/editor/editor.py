@@ -37,9 +37,9 @@ from mars2d.window.editor.item import Item, Motion
 from mars2d.window.editor.placing import Tie
 from mars2d.window.editor.properties import Properties
 from mars2d.window.editor.readout import minus
-from mars2d.window.editor.select import Handling, Select
+from mars2d.window.editor.select import Select
 from mars2d.window.editor.tool import Tool
-from mars2d.window.editor.verdict import Judge
+from mars2d.window.editor.verdict import Verdict
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.viewpoint import Viewpoint, wheel_notches
 from mars2d.window.widgets.actions import action_of, label_of
@@ -61,6 +61,8 @@ window's width."""
 PANEL, MAX_PANEL, ARENA = 268.0, 0.34, 0.42
 """The width of the panel, points, its largest share of the window's width, and the share of the
 window that it leaves to the drawing."""
+ROOMY = 800.0
+"""The width from which on the footer has room for one more hint, points."""
 PANEL_HINT = "Arrows choose a row, Enter opens it, Esc leaves the panel"
 STEP = 16.0
 """The height of the line below them, with the step of the grid, points."""
@@ -75,7 +77,7 @@ class Editor:
     path: the scenario's file; one that is not .toml only lends its name. live: whether a paused run
     is edited, which can continue with the outcome. control: the team's law, for the file. empty:
     start without robots. changed: the scenario differs from the file. dialogs: save, run or apply
-    the draft.
+    the draft. names: whether names are shown.
     """
 
     def __init__(
@@ -99,11 +101,10 @@ class Editor:
         self.desk = Desk(draft, self.viewpoint)
         if changed:
             self.desk.history.saved = None
-        self.judge = Judge(draft)
         self.menu, self.panel = Menu(), Menu(docked=True)
         self.dialogs = Dialogs(
-            self.desk, self.menu, self.document, self.judge, scenario,
-            live=live, complete=self._complete,
+            self.desk, self.menu, self.document, scenario,
+            live=live, complete=lambda: self.tool.confirm(),  # noqa: PLW0108
         )  # fmt: skip
         self.properties = Properties(
             self.desk, self.dialogs, self.document, self.menu, self.panel,
@@ -113,7 +114,7 @@ class Editor:
         self._pointer = (-1, -1)
         self._dragging = self._panning = False
         self._held: set[int] = set()
-        self._names = len(draft.robots) + len(draft.props) <= MAX_NAMED
+        self.names = len(draft.robots) + len(draft.props) <= MAX_NAMED
         self._plain = False  # whether only the add-ons that can be edited are drawn
         self.tool_name = "select"
         self.tool: Tool = Select(self.desk)
@@ -133,6 +134,12 @@ class Editor:
     def layout(self) -> Layout:
         """The layout."""
         return self.viewpoint.layout
+
+    @property
+    def verdict(self) -> Verdict:
+        """The verdict on the drawing; in the middle of a drag, that of before."""
+        desk = self.desk
+        return (desk.history.draft if self._dragging else desk.draft).verdict
 
     # -- events ---------------------------------------------------------------------------------
 
@@ -283,20 +290,12 @@ class Editor:
         self.choose("select")
         self.desk.select([*chosen * too, *items[place % max(1, len(items)) :][:1]])
 
-    def reach_panel(self) -> None:
-        """Give the keys to the panel, for who has no mouse."""
-        self.panel.focused = True
-
     def _touch(self, corner: int) -> None:
         """Choose a corner of the selection, and ask where it lies."""
-        if not isinstance(self.tool, Handling):
+        if self.tool_name != "select":
             self.choose("select")
         self.desk.corner = corner
         self.ask_pose()
-
-    def _complete(self) -> None:
-        """Finish the outline that is being drawn."""
-        self.tool.confirm()
 
     def ask_pose(self) -> None:
         """Ask where to put the selection, or a new item."""
@@ -339,14 +338,6 @@ class Editor:
         """Remove the last corner of the outline being drawn, or else undo the last change."""
         if not self.tool.back():
             self.desk.undo()
-
-    def switch_grid(self) -> None:
-        """Let points snap to the grid, or not."""
-        self.desk.snaps = not self.desk.snaps
-
-    def switch_names(self) -> None:
-        """Show or hide names."""
-        self._names = not self._names
 
     # -- the view -------------------------------------------------------------------------------
 
@@ -393,8 +384,6 @@ class Editor:
     def draw(self, surface: pygame.Surface) -> None:
         """Draw the editor; the layout follows the surface's size."""
         self._arrange(surface.get_size())
-        if not self._dragging:
-            self.judge.of(self.desk.draft)
         self._draw_plot(surface)
         plot, bar = self.layout.plot, self.layout.header
         side = pygame.Rect(0, bar.bottom, plot.left, plot.height)
@@ -403,6 +392,9 @@ class Editor:
         self.panel.draw(surface, right, self.painter)
         self._header.draw_bar(surface, bar, self.painter, self.title, self._note(), self._pointer)
         self._draw_foot(surface)
+        if self.tool.remark:
+            x, y = (each + round(16 * self.layout.ui) for each in self._pointer)
+            draw_tooltip(surface, self.painter, self.tool.remark, topleft=(x, y))
         if not (self._dragging or self.help.is_open):
             self._toolbar.draw_tip(surface, self.painter, self._pointer)
         self.menu.draw(surface, surface.get_rect(), self.painter)
@@ -420,21 +412,17 @@ class Editor:
         below = (place.centerx, place.bottom + 2)
         painter.write(surface, step, 0.3 * place.width, theme.text, midtop=below)
 
-    def is_on(self, action: str) -> bool:
-        """Return whether a tool is chosen, or the grid snaps."""
-        return self.desk.snaps if action == "snap" else action == self.tool_name
-
     def _draw_plot(self, surface: pygame.Surface) -> None:
         scene = Scene()
         draft = self.desk.draft
         draw_selected(draft, self.desk.selection, scene)
-        draw_culprits(draft, self.judge.verdict.culprits, scene)
+        draw_culprits(draft, self.verdict.culprits, scene)
         self.tool.draw(scene)
         plot, camera = self.layout.plot, self.desk.camera
         frame = (draft.bare if self._plain else draft).frame()
-        if self._names:
+        if self.names:
             draw_remarks(draft, self.properties.idle(draft), scene)
-        layers, hurried = LAYERS.switched(names=self._names), self.viewpoint.hurried
+        layers, hurried = LAYERS.switched(names=self.names), self.viewpoint.hurried
         draw = partial(self._stage.draw, marks=scene.shapes, hurried=hurried)
         try:
             draw(surface, frame, camera, layers, plot)
@@ -444,15 +432,10 @@ class Editor:
             self._plain = True
             self.desk.say(f"Other add-ons are not drawn: {error}", warns=True)
             draw(surface, draft.bare.frame(), camera, layers, plot)
-        remark = self.tool.remark
-        if remark:
-            x, y = self._pointer
-            gap = round(16 * self.layout.ui)
-            draw_tooltip(surface, self.painter, remark, topleft=(x + gap, y + gap))
 
     def _draw_foot(self, surface: pygame.Surface) -> None:
         """Draw what to do, or over the foot of the drawing a message of any length."""
-        desk, verdict, layout = self.desk, self.judge.verdict, self.layout
+        desk, verdict, layout = self.desk, self.verdict, self.layout
         text = PANEL_HINT if self.panel.focused else self.tool.hint
         banner = Banner(desk.notice, error=desk.warns) if desk.notice else None
         if banner is None and verdict.faults and desk.draft.robots:
@@ -463,6 +446,9 @@ class Editor:
         if layout.plot.collidepoint(self._pointer):
             x, y = desk.snapped(self._world(self._pointer))
             hints = [("", minus(f"x {x:g} m   y {y:g} m"))]
+        wide = surface.get_width() >= ROOMY * layout.ui
+        if wide and self.tool_name != "select" and not self.panel.focused:
+            hints = [("=", "types a place"), *hints]
         size, looks = surface.get_size(), self.looks
         height = round(
             footer_height(banner, size, self.painter, looks.text, looks.scale) * layout.ui

@@ -223,13 +223,11 @@ def turning(desk: Desk, ring: Ring) -> Drag:
 
 def cornering(desk: Desk, item: Item, number: int, *, new: bool = False) -> Drag:
     """Move a corner of an outline, a wall or the workspace; new: one that is added after it."""
-    draft, before = desk.draft, list(desk.draft.corners(item) or ())
-    k = number + 1 if new else number
-    if new:
-        before.insert(k, before[number])
+    draft, k = desk.draft, number + 1 if new else number
+    kept = (draft.corners(item) or ())[number:k]
 
     def to(point: Point, _: bool) -> Draft:
-        return draft.with_values({item: (*before[:k], desk.snapped(point), *before[k + 1 :])})
+        return draft.with_corner(item, number, *kept, desk.snapped(point))
 
     def remark() -> str:
         corners = desk.draft.corners(item) or ()

@@ -29,23 +29,18 @@ class Chain(Tool):
 
     def press(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
         """Add a corner."""
-        self.add(self.desk.snapped(point))
+        self.put(*self.desk.snapped(point), None)
 
     def put(self, x: float, y: float, heading: float | None) -> None:  # noqa: ARG002
-        """Add a corner at a typed point."""
-        self.add((x, y))
-
-    def add(self, corner: Point) -> None:
-        """Add a corner, unless it is the same as the last one."""
-        if not self.corners or corner != self.corners[-1]:
-            self.corners.append(corner)
+        """Add a corner at a typed point, unless it is the same as the last one."""
+        if [(x, y)] != self.corners[-1:]:
+            self.corners.append((x, y))
 
     def confirm(self) -> bool:
         """Keep the outline if it has enough corners."""
-        if len(self.corners) < self.least:
-            return self._drop()
-        self.desk.put_new(self.made(tuple(self.corners)))
-        return self._drop()
+        if len(self.corners) >= self.least:
+            self.desk.put_new(self.made(tuple(self.corners)))
+        return Chain.cancel(self)
 
     def made(self, corners: Outline) -> Draft:
         """Return the draft with the outline."""
@@ -57,31 +52,25 @@ class Chain(Tool):
 
     def cancel(self) -> bool:
         """Remove all corners."""
-        return self._drop()
-
-    def _drop(self) -> bool:
         corners, self.corners = self.corners, []
         return bool(corners)
 
     @property
-    def next(self) -> Point | None:
-        """The place of the next corner."""
-        return None if self.pointer is None else self.desk.snapped(self.pointer)
+    def line(self) -> list[Point]:
+        """The corners so far, and the place of the next one."""
+        ahead = [] if self.pointer is None else [self.desk.snapped(self.pointer)]
+        return [*self.corners, *ahead]
 
     @property
     def remark(self) -> str:
         """The length and direction of the next edge."""
-        if not self.corners or self.next is None:
-            return ""
-        return stretch(self.corners[-1], self.next)
+        return stretch(*self.line[-2:]) if self.corners and self.pointer is not None else ""
 
     def draw(self, scene: Scene) -> None:
         """Draw the corners so far, and the edge to the pointer."""
-        place = self.next
-        ahead = [] if place is None else [place]
-        if len(self.corners) + len(ahead) > 1:
-            scene.line([*self.corners, *ahead], stroke=MARK, width=2.0)
-        for corner in [*self.corners, *ahead]:
+        if len(self.line) > 1:
+            scene.line(self.line, stroke=MARK, width=2.0)
+        for corner in self.line:
             scene.circle(corner, 0.0, fill=PAPER, stroke=MARK, width=1.5, pixels=3.5)
 
 
@@ -107,14 +96,12 @@ class DrawPolygon(Chain):
 
     def press(self, point: Point, *, shift: bool) -> None:
         """Add a corner; close the polygon at the first one."""
-        if len(self.corners) > 2 and self._closes(point):
+        first, desk = self.corners[:1], self.desk
+        there = [desk.snapped(point)] == first or any(desk.near(c, point, CLOSE) for c in first)
+        if there and len(self.corners) > 2:
             self.confirm()
         else:
             super().press(point, shift=shift)
-
-    def _closes(self, point: Point) -> bool:
-        first = self.corners[0]
-        return self.desk.near(first, point, CLOSE) or self.desk.snapped(point) == first
 
     def made(self, corners: Outline) -> Draft:
         """Return the draft with the obstacle."""
@@ -122,10 +109,8 @@ class DrawPolygon(Chain):
 
     def draw(self, scene: Scene) -> None:
         """Draw the corners and the area."""
-        place = self.next
-        ring = [*self.corners, *([] if place is None else [place])]
-        if self.corners and len(ring) > 2:
-            scene.polygon(ring, fill=faded(INK, 0.15))
+        if self.corners and len(self.line) > 2:
+            scene.polygon(self.line, fill=faded(INK, 0.15))
         super().draw(scene)
         if len(self.corners) > 2:
             scene.circle(self.corners[0], 0.0, stroke=MARK, width=2.0, pixels=8.0)

@@ -12,6 +12,7 @@ from mars2d.addons.beacon import Beacon
 from mars2d.bodies.joints.base import Joint
 from mars2d.bodies.joints.hinge import Hinge
 from mars2d.bodies.props.base import Prop
+from mars2d.core.errors import InputError
 from mars2d.core.plane import Point, bounds_of, rectangle
 from mars2d.core.scene import Scene, faded
 from mars2d.output.layers.bodies import draw_prop, draw_robot
@@ -214,7 +215,7 @@ class Tie(Tool):
         self._kind, self._items, self._done = kind, items, done
         self._pins = issubclass(kind, Hinge)
         to = "the pin goes through" if self._pins else "it is tied to"
-        self.hint = f"Click the body that {to}; a click on the floor ties it there"
+        self.hint = f"Click the body that {to}, or the floor; or type = and its name"
 
     def press(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
         """Tie the bodies to the item at a point [m]."""
@@ -228,6 +229,8 @@ class Tie(Tool):
             if self._pins:
                 ends["anchor_a"] = seen_from(draft.body(item), at)
             draft = draft.with_joint(self._kind(a=draft.name(item), **ends))
+        if draft.verdict.text and not desk.draft.verdict.text:
+            raise InputError(draft.verdict.text)
         desk.put(draft)
         self._done()
 

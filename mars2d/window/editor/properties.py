@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -30,7 +30,7 @@ from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.item import Item
 from mars2d.window.editor.readout import described, minus
-from mars2d.window.widgets.menu import Entry, Menu
+from mars2d.window.widgets.menu import CHOSEN, Entry, Menu
 from mars2d.window.widgets.prompt import Answer
 from mars2d.window.widgets.text_field import TextField
 
@@ -39,13 +39,15 @@ Field = dataclasses.Field[Any]
 
 SEVERAL = "several"
 """Shown where the selected bodies have different values."""
-CHOSEN = "✓"
-"""Marks the entry of a menu that holds now."""
-BODY = ("mass", "diameter", "length", "width", "friction", "restitution", "ground_friction")
-"""The fields of robots and props that have a row of their own."""
-ELSEWHERE = ("name", "color", "pose", "shape", "controller", "a", "b", "workspace")
+ELSEWHERE = ("pose", "shape", "controller", "a", "b", "workspace")
 """The fields that are changed in other ways."""
-COLORS = ("blue", "vermilion", "green", "pink", "orange", "sky blue", "violet", "dark grey")
+COLORS = dict(
+    zip(
+        PALETTE,
+        ("blue", "vermilion", "green", "pink", "orange", "sky blue", "violet", "dark grey"),
+        strict=True,
+    )
+)
 """The colours of the palette, in words."""
 AUTOMATIC = "automatic"
 """What a value is called that follows from others, or that nobody has given."""
@@ -77,27 +79,35 @@ class Subject(NamedTuple):
         )
 
     @property
-    def fields(self) -> dict[str, Field]:
-        """The fields that all parts have, by their names."""
-        known = [{field.name: field for field in dataclasses.fields(part)} for part in self.parts]
-        return {name: f for name, f in known[0].items() if all(name in each for each in known)}
+    def kind(self) -> type | None:
+        """The class of all parts, None if they are of several."""
+        kinds = {*map(type, self.parts)}
+        return kinds.pop() if len(kinds) == 1 else None
 
     @property
-    def plain(self) -> list[str]:
-        """The names of the fields that can be typed or chosen."""
-        return [
-            name
-            for name in self.fields
-            if name not in ELSEWHERE and all(_is_plain(getattr(p, name)) for p in self.parts)
-        ]
+    def plain(self) -> dict[str, Field]:
+        """The fields that all parts have and that can be typed or chosen, by their names."""
+        if not all(map(dataclasses.is_dataclass, self.parts)):
+            return {}
+        known = [{field.name: field for field in dataclasses.fields(part)} for part in self.parts]
+        return {
+            name: field
+            for name, field in known[0].items()
+            if name not in ELSEWHERE
+            and all(name in each for each in known)
+            and all(_is_plain(getattr(part, name)) for part in self.parts)
+        }
 
-    def in_words(self, name: str) -> str:
+    def in_words(self, field: Field) -> str:
         """Return a field's value in words."""
-        return _alike([_shown(part, self.fields[name]) for part in self.parts])
+        return _alike([_shown(part, field) for part in self.parts])
 
 
 class Properties:
     """The rows about the selection; each opens a menu, or a field to type in.
+
+    A row shows a plain field, by the field's own metadata, or a part, such as a drive or a sensor:
+    its menu offers others in its place, and has the fields of the part.
 
     panel: shows them. menu: opens below one of them. choose: takes up a tool by its name. tie: lets
     a person choose what some items are tied to. touch: asks where a corner of the selection lies.
@@ -153,12 +163,6 @@ class Properties:
         draft, put = self._desk.draft, self._desk.put
         return Subject([joint], lambda f: put(draft.with_joint(f(joint), instead=joint)))
 
-    def _named(self, item: Item) -> Subject:
-        """Return a body whose new name is put wherever the old one is mentioned."""
-        draft, put = self._desk.draft, self._desk.put
-        body = draft.value(item)
-        return Subject([body], lambda f: put(draft.renamed(item, (f(body).name or "").strip())))
-
     # -- rows -----------------------------------------------------------------------------------
 
     def rows(self) -> list[Entry]:
@@ -168,19 +172,18 @@ class Properties:
         first, *others = described(self._desk)
         rows = [Entry(first), *(Entry(line, tone="note") for line in others)]
         bodies = tuple(item for item in self._desk.selection if item.kind in ("robot", "prop"))
-        robots = tuple(item for item in bodies if item.kind == "robot")
         if not bodies:
             return [*rows, *self._rows_of_corners()]
-        if robots == bodies:
-            rows += [*self._rows_of_law(robots), *self._rows_of_drive(robots)]
-        rows += self._rows_of_body(bodies)
-        if robots == bodies:
-            rows += self._rows_of_sensors(robots)
-        return rows + self._rows_of_joints(bodies)
+        if all(item.kind == "robot" for item in bodies):
+            rows += self._rows_of_robots(bodies)
+        owners = self._members(bodies)
+        known = ["name"] if len(bodies) > 1 else []
+        known += ["diameter"] if any(getattr(p, "shape", None) for p in owners.parts) else []
+        return [*rows, *self._rows_of_joints(bodies), *self._fields(owners, but=known)]
 
     def _rows_of_scenario(self) -> list[Entry]:
-        draft, team = self._desk.draft, self._scenario()
-        rows = [Entry("The scenario"), *(self._row(team, name) for name in team.plain)]
+        draft = self._desk.draft
+        rows = [Entry("The scenario"), *self._fields(self._scenario())]
         idle = self.idle(draft)
         for i, want in list(idle.items())[:MAX_IDLE]:
             words, select = f"{draft.robots[i].name} lacks {want}", self._desk.select
@@ -202,16 +205,26 @@ class Properties:
             for k, (x, y) in enumerate(corners or ())
         ]
 
-    def _rows_of_law(self, robots: Items) -> list[Entry]:
-        laws = self._members(robots).part("controller")
+    def _rows_of_robots(self, robots: Items) -> list[Entry]:
+        whole, idle = self._members(robots), self.idle(self._desk.draft)
+        laws, drives = whole.part("controller"), whole.part("drive")
         title = _alike([self._title_of(law) for law in laws.parts])
-        rows = [Entry("Law", partial(self._offer_laws, robots), value=title)]
-        if isinstance(laws.parts[0], Controller) and len({*map(type, laws.parts)}) == 1:
-            rows += [self._row(laws, name, level=1) for name in laws.fields]
-        idle = self.idle(self._desk.draft)
+        rows = [self._part("Law", title, laws, self._laws(robots))]
         wants = [idle[item.number] for item in robots if item.number in idle]
         if wants:
             rows.append(Entry(f"stands still: it lacks {wants[0]}", level=1, tone="warning"))
+        title = _alike([type(drive).__name__ for drive in drives.parts])
+        give = lambda kind: drives.change(partial(_driven, kind))  # noqa: E731
+        rows.append(
+            self._part("Drive", title, drives, _listed(members("bodies"), give, drives.kind))
+        )
+        act = partial(self._offer, "Add a sensor", members("sensors"), partial(_add_sensor, whole))
+        rows.append(Entry("Sensors", act, value="add one"))
+        first, *others = whole.parts
+        for sensor in first.sensors:
+            if all(robot.sensor(sensor.key) for robot in others):
+                subject = self._sensors(robots, sensor.key)
+                rows.append(self._part(sensor.key, type(sensor).__name__, subject))
         return rows
 
     def _title_of(self, law: object) -> str:
@@ -222,78 +235,71 @@ class Properties:
             return name_of(law)
         return "that of the team" if self._document.control is not None else NO_LAW
 
-    def _rows_of_drive(self, robots: Items) -> list[Entry]:
-        drives = self._members(robots).part("drive")
-        kind = _alike([type(drive).__name__ for drive in drives.parts])
-        return [
-            Entry("Drive", partial(self._offer_drives, drives), value=kind),
-            self._row(drives, "max_linear_speed", level=1),
-        ]
-
-    def _rows_of_body(self, bodies: Items) -> list[Entry]:
-        owners = self._members(bodies)
-        shaped = any(getattr(part, "shape", None) is not None for part in owners.parts)
-        rows = [
-            self._row(owners, name)
-            for name in BODY
-            if name in owners.fields
-            and not (name == "diameter" and shaped and bodies[0].kind == "robot")
-        ]
-        known = dict(zip(PALETTE, COLORS, strict=True))
-        words = _alike([known.get(part.color, part.color or AUTOMATIC) for part in owners.parts])
-        seen = [part.color for part in owners.parts[:1] if part.color and words != SEVERAL]
-        if bodies[0].kind == "robot" and words == AUTOMATIC:
-            seen = [self._desk.draft.sketch.colors[bodies[0].number]]
-        color = partial(self._offer_colors, owners)
-        rows.append(Entry("Colour", color, value=words, colors=seen))
-        if len(bodies) == 1:
-            rows.insert(0, self._row(self._named(bodies[0]), "name"))
-        more = partial(self._open, "More", list(self._fields(owners, BODY)))
-        return [*rows, Entry("More", more, value="all other fields")]
-
-    def _rows_of_sensors(self, robots: Items) -> list[Entry]:
-        rows = [Entry("Sensors", partial(self._offer_new_sensors, robots), value="add one")]
-        first, *others = (self._desk.draft.robots[item.number] for item in robots)
-        for sensor in first.sensors:
-            if all(robot.sensor(sensor.key) for robot in others):
-                act = partial(self._offer_part, sensor.key, self._sensors(robots, sensor.key))
-                rows.append(Entry(sensor.key, act, value=type(sensor).__name__, level=1))
-        return rows
-
     def _rows_of_joints(self, bodies: Items) -> list[Entry]:
-        rows = [Entry("Joints", partial(self._offer_new_joints, bodies), value="add one")]
-        if len(bodies) == 1:
-            name = self._desk.draft.name(bodies[0])
-            for joint in self._desk.draft.joints_of(bodies[0]):
+        kinds, draft = members("joints"), self._desk.draft
+        act = partial(self._offer, "Tie it by a", kinds, lambda kind: self._tie(kind, bodies))
+        rows = [Entry("Joints", act, value="add one")]
+        name = draft.name(bodies[0])
+        for joint in draft.base.joints if len(bodies) == 1 else ():
+            if name in (joint.a, joint.b):
                 kind, other = type(joint).__name__, joint.b if joint.a == name else joint.a
-                act = partial(self._offer_part, kind, self._joint(joint))
-                rows.append(Entry(f"{kind} to {other or 'the floor'}", act=act, level=1))
+                rows.append(self._part(f"{kind} to {other or 'the floor'}", "", self._joint(joint)))
         return rows
 
-    def _row(self, subject: Subject, name: str, level: int = 0) -> Entry:
-        """Return the row of a field."""
-        title, act = _title(name), partial(self._ask, subject, name)
-        title = title if level else title.capitalize()
-        return Entry(title, act, value=subject.in_words(name), level=level)
+    def _part(
+        self, title: str, value: str, subject: Subject, others: Sequence[Entry] = ()
+    ) -> Entry:
+        """Return the row of a part, and below it what is unusual about it.
+
+        others: to take in its place; without any, it can be removed.
+        """
+        fields = self._fields(subject) if subject.kind else []
+        changed = serialize.changed(subject.parts[0]) if fields else {}
+        words = (
+            f"{_title(k)} {subject.in_words(f)}" for k, f in subject.plain.items() if k in changed
+        )
+        entries = others or [Entry("Remove it", partial(subject.change, lambda _: None))]
+        entries = [*entries, *[Entry("Fields")] * bool(fields), *fields]
+        act, more = partial(self._open, title, entries), minus(", ".join(words))
+        return Entry(title, act, value=value, more=more, level=not others)
+
+    def _fields(self, subject: Subject, but: Sequence[str] = ()) -> list[Entry]:
+        """Return a row for each field that can be typed or chosen."""
+        return [
+            Entry(
+                _title(name).capitalize(),
+                partial(self._ask, subject, name),
+                value=subject.in_words(field),
+            )
+            for name, field in subject.plain.items()
+            if name not in but
+        ]
 
     # -- asking ---------------------------------------------------------------------------------
 
     def _ask(self, subject: Subject, name: str) -> None:
         """Let a person change a field: by a menu of its values, or by typing."""
-        field, part = subject.fields[name], subject.parts[0]
-        value, choices = getattr(part, name), self._choices(field)
+        field = subject.plain[name]
+        value, give = getattr(subject.parts[0], name), partial(subject.set, name)
+        choices = self._choices(field)
+        unit, title = field.metadata.get("unit", ""), _title(name)
+        exact = isinstance(value, float) and not isinstance(value, Coefficient)
+        ask = partial(
+            self._type,
+            f"{title}{f' [{unit}]' if unit else ''} =",
+            field.metadata.get("doc", ""),
+            repr(value) if exact else _in_words(value),
+            lambda typed: give(_typed(field, typed)),
+        )
         if isinstance(value, bool):
-            subject.set(name, not value)
+            give(not value)
         elif choices:
-            give = partial(subject.set, name)
-            self._offer(_title(name), {_in_words(each): each for each in choices}, give, value)
+            more = [Entry("another …", ask)] * (name == "color")
+            none = AUTOMATIC if _follows(field) else "none"
+            named = {none if each is None else _in_words(each): each for each in choices}
+            self._offer(title, named, give, value, more)
         else:
-            unit = field.metadata.get("unit", "")
-            label = f"{_title(name)}{f' [{unit}]' if unit else ''} ="
-            exact = isinstance(value, float) and not isinstance(value, Coefficient)
-            text = repr(value) if exact else _in_words(value)
-            doc = field.metadata.get("doc", "")
-            self._type(label, doc, text, lambda typed: subject.set(name, _typed(field, typed)))
+            ask()
 
     def _choices(self, field: Field) -> Sequence[Any]:
         """Return the values that a field may have, if they are few."""
@@ -304,7 +310,7 @@ class Properties:
             return [None, *(r.name for i, r in enumerate(robots) if i not in chosen)]
         if mentions == "sensor":
             return [sensor.key for i in chosen for sensor in robots[i].sensors]
-        words = schema_of(field).get("enum", [])
+        words = schema_of(field).get("enum", [*COLORS] * (field.name == "color"))
         return [None, *words] if words and field.default is None else words
 
     def _type(self, label: str, doc: str, text: str, take: Callable[[str], None]) -> None:
@@ -331,40 +337,22 @@ class Properties:
         more: Sequence[Entry] = (),
     ) -> None:
         """Open a menu of choices, by their words; now: the present one."""
-        entries = [
-            Entry(words, partial(give, each), value=CHOSEN * (each == now))
-            for words, each in choices.items()
-        ]
-        self._open(title, [*entries, *more])
+        self._open(title, [*_listed(choices, give, now), *more])
 
-    def _fields(self, subject: Subject, but: Sequence[str] = ()) -> Iterator[Entry]:
-        """Return an entry for each field that can be typed."""
-        for name in subject.plain:
-            if name not in but:
-                act = partial(self._ask, subject, name)
-                yield Entry(_title(name).capitalize(), act, value=subject.in_words(name))
+    # -- laws and drives ------------------------------------------------------------------------
 
-    def _offer_part(self, title: str, subject: Subject) -> None:
-        """Open the menu of a part that can be removed."""
-        entries = [Entry("Remove it", partial(subject.change, lambda _: None))]
-        if len({*map(type, subject.parts)}) == 1:
-            entries += [Entry("Fields"), *self._fields(subject)]
-        self._open(title, entries)
-
-    # -- laws -----------------------------------------------------------------------------------
-
-    def _offer_laws(self, robots: Items) -> None:
+    def _laws(self, robots: Items) -> list[Entry]:
+        """Return what can be chosen as the law of robots."""
         owners = self._members(robots)
-        now = _only({type(robot.controller) for robot in owners.parts})
         laws: list[Any] = [*members("controllers").values()]
+        now = owners.part("controller").kind
         without = "as the team's law says" if self._document.control is not None else NO_LAW
         stop = partial(owners.set, "controller", None)
-        more = [
+        return [
+            *_listed({law.title: law for law in laws}, partial(self._give_law, robots), now),
             Entry("from a file …", partial(self._ask_for_file, owners)),
             Entry(without, stop, value=CHOSEN * (now is type(None))),
         ]
-        titled = {law.title: law for law in laws}
-        self._offer("Law", titled, partial(self._give_law, robots), now, more)
 
     def _give_law(self, robots: Items, kind: type[Controller]) -> None:
         """Give robots a ready-made law, with the sensors that it needs."""
@@ -395,61 +383,45 @@ class Properties:
         doc = "a file of Python and a function in it, such as walk.py:walk"
         self._type("Law =", doc, "", take)
 
-    # -- drives, colours, sensors, joints -------------------------------------------------------
 
-    def _offer_drives(self, drives: Subject) -> None:
-        now = _only({type(drive) for drive in drives.parts})
+def _driven(kind: type[Description], drive: Description) -> Description:
+    """Return a drive of a kind with the fields that both have."""
+    known, given = kind.__dataclass_fields__, serialize.changed(drive)
+    return kind(**{k: v for k, v in given.items() if k in known})
 
-        def give(kind: type[Description]) -> None:
-            def taken(drive: Description) -> Description:
-                known, given = kind.__dataclass_fields__, serialize.changed(drive)
-                return kind(**{k: v for k, v in given.items() if k in known})
 
-            drives.change(taken)
+def _listed(choices: Mapping[str, Any], give: Callable[[Any], object], now: object) -> list[Entry]:
+    """Return the entries of choices, by their words; now: the present one."""
+    return [
+        Entry(
+            words,
+            partial(give, each),
+            value=CHOSEN * (each == now),
+            colors=[each] * (each in COLORS),
+        )
+        for words, each in choices.items()
+    ]
 
-        fields = [] if now is None else [Entry("Fields"), *self._fields(drives)]
-        self._offer("Drive", members("bodies"), give, now, fields)
 
-    def _offer_colors(self, bodies: Subject) -> None:
-        entries = [
-            Entry(words, partial(bodies.set, "color", color), colors=[color])
-            for words, color in zip(COLORS, PALETTE, strict=True)
-        ]
-        entries.append(Entry("another …", partial(self._ask, bodies, "color")))
-        entries.append(Entry(AUTOMATIC, partial(bodies.set, "color", None)))
-        self._open("Colour", entries)
+def _add_sensor(robots: Subject, kind: type[Any]) -> None:
+    """Give robots one more sensor, with a name that is free."""
+    no = dataclasses.MISSING
+    fields = dataclasses.fields(kind)
+    needed = (f.name for f in fields if f.default is f.default_factory is no)
+    sensor = kind(**dict.fromkeys(needed, GIVEN))
 
-    def _offer_new_sensors(self, robots: Items) -> None:
-        def added(kind: type[Any], robot: Robot) -> Robot:
-            needed = (
-                f.name
-                for f in dataclasses.fields(kind)
-                if f.default is f.default_factory is dataclasses.MISSING
-            )
-            sensor = kind(**dict.fromkeys(needed, GIVEN))
-            taken = {each.key for each in robot.sensors}
-            if sensor.key in taken:
-                names = (f"{sensor.key}{k}" for k in range(2, len(taken) + 3))
-                sensor = sensor.replace(name=next(n for n in names if n not in taken))
-            return robot.replace(sensors=[*robot.sensors, sensor])
+    def added(robot: Robot) -> Robot:
+        names = (sensor.key, *(f"{sensor.key}{k}" for k in range(2, len(robot.sensors) + 3)))
+        name = next(name for name in names if robot.sensor(name) is None)
+        new = sensor if name == sensor.key else sensor.replace(name=name)
+        return robot.replace(sensors=[*robot.sensors, new])
 
-        def give(kind: type[Any]) -> None:
-            self._members(robots).change(partial(added, kind))
-
-        self._offer("Add a sensor", members("sensors"), give)
-
-    def _offer_new_joints(self, bodies: Items) -> None:
-        self._offer("Tie it by a", members("joints"), lambda kind: self._tie(kind, bodies))
+    robots.change(added)
 
 
 def _alike(words: Sequence[str]) -> str:
     """Return the words that are the same for all parts, or that they are several."""
     return words[0] if len({*words}) == 1 else SEVERAL
-
-
-def _only(kinds: set[type]) -> type | None:
-    """Return the kind of all parts, None if they are of several."""
-    return kinds.pop() if len(kinds) == 1 else None
 
 
 def _title(name: str) -> str:
@@ -460,12 +432,17 @@ def _title(name: str) -> str:
 def _shown(part: object, field: Field) -> str:
     """Return a field's value in words; in place of None the value that follows from others."""
     value, unit = getattr(part, field.name), field.metadata.get("unit", "")
-    if value is not None or "None: " not in field.metadata.get("doc", ""):
+    if value is not None or not _follows(field):
         return _in_words(value, unit)
     wholes = (getattr(part, name, None) for name in ("inertia", "surface"))
     found = (getattr(whole, field.name, None) for whole in wholes)
     follows = next((each for each in found if each is not None), None)
     return AUTOMATIC if follows is None else f"{AUTOMATIC} ({_in_words(follows, unit)})"
+
+
+def _follows(field: Field) -> bool:
+    """Return whether a field that is None follows from others."""
+    return "None: " in field.metadata.get("doc", "")
 
 
 def _typed(field: Field, text: str) -> object:
@@ -484,9 +461,10 @@ def _in_words(value: object, unit: str = "") -> str:
         return "yes" if value else "no"
     if isinstance(value, Coefficient):
         return value.material
-    if isinstance(value, float):
-        return f"{value:.4g} {unit}".strip()
-    return f"{value} {unit}".strip() if isinstance(value, int) else str(value)
+    if isinstance(value, tuple) and not any(isinstance(each, str) for each in value):
+        return f"{', '.join(map(_in_words, value))} {unit * (',' not in unit)}".strip()
+    text = f"{value:.4g}" if isinstance(value, float) else COLORS.get(str(value), str(value))
+    return f"{text} {unit}".strip()
 
 
 def _is_plain(value: object) -> bool:

@@ -26,14 +26,11 @@ def described(desk: Desk) -> list[str]:
     if pose is not None and draft.starts_at_random(item):
         lines.append("starts at random, until it is moved")
     elif pose is not None:
-        lines.append(f"{_place(pose[:2])}   θ {in_both_units(pose[2])}")
+        lines += [_place(pose[:2]), f"θ {in_both_units(pose[2])}"]
     elif corners is None:
         lines.append(_place(draft.place(item)))
     else:
         lines.append(f"{counted(len(corners), 'corner')}, {_length(item, corners)}")
-    size = size_of(draft, item)
-    if size:
-        lines.append(size)
     return [minus(line) for line in lines]
 
 

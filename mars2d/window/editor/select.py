@@ -21,8 +21,13 @@ from mars2d.window.editor.picking import item_at, items_within
 from mars2d.window.editor.tool import Tool
 
 
-class Handling(Tool):
-    """The base of tools that drag handles."""
+class Select(Tool):
+    """Selects, moves, turns and resizes items."""
+
+    hint = "Click or drag to select; drag moves, the ring turns"
+    _band: tuple[Point, Point] | None = None
+    _kept: tuple[Item, ...] = ()
+    _clicked: Item | None = None
 
     def take(self, handle: Handle, point: Point) -> None:
         """Begin to drag a handle."""
@@ -49,25 +54,11 @@ class Handling(Tool):
         if heading is not None and (pose is None or desk.only is None):
             raise InputError("only one robot or prop alone has a heading: expected x y")
         if corners is not None and desk.corner is not None:
-            k = desk.corner
-            desk.put(draft.with_values({held: (*corners[:k], (x, y), *corners[k + 1 :])}))
+            desk.put(draft.with_corner(held, desk.corner, (x, y)))
             return
         angle = 0.0 if heading is None or pose is None else heading - pose[2]
         by = x - place[0], y - place[1]
         desk.put(draft.moved(desk.selection, Motion(angle, place, by)))
-
-    def draw(self, scene: Scene) -> None:
-        """Draw the handles."""
-        draw_handles(self.desk, scene)
-
-
-class Select(Handling):
-    """Selects and moves items."""
-
-    hint = "Click or drag to select; drag moves, the ring turns"
-    _band: tuple[Point, Point] | None = None
-    _kept: tuple[Item, ...] = ()
-    _clicked: Item | None = None
 
     def press(self, point: Point, *, shift: bool) -> None:
         """Begin to drag a handle, an item, or a rectangle round items."""
@@ -116,7 +107,7 @@ class Select(Handling):
 
     def draw(self, scene: Scene) -> None:
         """Draw the handles and the rectangle."""
-        super().draw(scene)
+        draw_handles(self.desk, scene)
         if self._band is not None:
             area = rectangle(*bounds_of(self._band))
             scene.polygon(area, fill=faded(MARK, 0.08), stroke=MARK, width=1.0)

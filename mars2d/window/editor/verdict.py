@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import islice, pairwise
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -12,8 +12,10 @@ from mars2d.core.errors import Mars2dError
 from mars2d.core.plane import Outline, Point, outside_polygon
 from mars2d.scenario import starts
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.item import Item
+
+if TYPE_CHECKING:
+    from mars2d.window.editor.draft import Draft
 
 MAX_FAULTS = 50
 """The search stops after this many faults."""
@@ -58,20 +60,6 @@ def judge(draft: Draft) -> Verdict:
         return Verdict(None, found or (Fault(str(error)),))
     stray = tuple(_stray(draft))
     return Verdict(None if stray else scenario, stray)
-
-
-class Judge:
-    """Judges drafts as they change, each only once; verdict: the last verdict."""
-
-    def __init__(self, draft: Draft) -> None:
-        """Judge the first draft."""
-        self.verdict, self._draft = judge(draft), draft
-
-    def of(self, draft: Draft) -> Verdict:
-        """Return the verdict on a draft."""
-        if draft is not self._draft:
-            self.verdict, self._draft = judge(draft), draft
-        return self.verdict
 
 
 def _misplaced(draft: Draft) -> Iterator[Fault]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -192,7 +192,7 @@ class Dock:
         self._recent = [*reversed(new), *(name for name in self._recent if name in names)]
         self._place = place = self._best(layout, frame, fit, tall) if shown else None
         if self.plates.keys() != set(names):  # what covers the picture, before it is drawn
-            self.plates = {panel.name: place for panel, place in self._placed(frame)}
+            self.plates = self._plates(place.lanes, frame) if place else {}
         framed = layout, *(panel.name for panel in shown if panel.frames)
         if framed != self._framed:
             moves = place is not None and (self._framed is None or len(framed) > 1)
@@ -221,18 +221,19 @@ class Dock:
         def scale(plot: pygame.Rect) -> float:
             return fit(replace(layout, plot=plot)).scale
 
-        whole = scale(self._plot)
+        alone = scale(self._plot)
 
         def worth(place: Place) -> tuple[bool, float]:
             """Return whether all panels have room, and how large arena and panels are."""
-            arena = min(scale(place.room) / whole, 1.0)
+            arena = min(scale(place.room) / alone, 1.0)
             wanted = sum(self._heights(panel, frame, place.lanes[0])[1] for panel in shown)
             room = min(sum(lane.height for lane in place.lanes) / wanted, 1.0)
-            fits = len(self._unfolded(shown, place.lanes, frame)) == len(shown)
+            whole = dict.fromkeys(self._recent, 2)
+            fits = self._stacks(place.lanes, whole, frame) is not None
             return fits, arena * room**0.5
 
-        places = list(self._places(frame, round(tall * whole + 56 * self.painter.ui)))
-        beside = [place for place in places if scale(place.room) >= BESIDE * whole]
+        places = list(self._places(frame, round(tall * alone + 56 * self.painter.ui)))
+        beside = [place for place in places if scale(place.room) >= BESIDE * alone]
         covering = [place._replace(room=self._plot) for place in places[:1]]
         return max(beside, key=worth) if beside else next(iter(covering), None)
 
@@ -273,66 +274,45 @@ class Dock:
         more = PAD + (HEAD if panel.headed else 0)
         return min((least + more) * ui, lane.height), (wanted + more) * ui
 
-    def _unfolded(
-        self, shown: Sequence[Panel], lanes: Sequence[pygame.Rect], frame: Frame
-    ) -> set[str]:
-        """Return the names of the panels that are seen whole, as many as there is room for, or one.
+    def _plates(self, lanes: Sequence[pygame.Rect], frame: Frame) -> dict[str, pygame.Rect]:
+        """Return where panels stand in lanes, by name; sets which of them are folded.
 
-        For that one, titles of others may have to go.
+        Where there is no room for all, those opened longest ago are folded, then left out; that
+        opened last is always seen whole.
         """
-        found: set[str] = set()
-        for name in self._recent:
-            if self._shared(shown, lanes, frame, {*found, name}) is not None:
-                found.add(name)
-        return found or set(self._recent[:1])
-
-    def _shared(
-        self,
-        shown: Sequence[Panel],
-        lanes: Sequence[pygame.Rect],
-        frame: Frame,
-        unfolded: set[str],
-    ) -> list[list[Panel]] | None:
-        """Return the panels of each lane, each put where most room is left; None for too little."""
-        gap, ui = round(MARGIN * self.painter.ui), self.painter.ui
-        shared: list[list[Panel]] = [[] for _ in lanes]
-        rooms = [lane.height + gap for lane in lanes]
-        for panel in shown:
-            k = rooms.index(max(rooms))
-            whole = panel.name in unfolded
-            least = self._heights(panel, frame, lanes[k])[0] if whole else HEAD * ui
-            rooms[k] -= round(least) + gap
-            shared[k].append(panel)
-        return shared if min(rooms) >= 0 else None
-
-    def _placed(self, frame: Frame) -> Iterator[tuple[Panel, pygame.Rect]]:
-        """Yield the open panels with their plates."""
-        if self._place is None:
-            return
-        shown = self._shown
-        unfolded = self._unfolded(shown, self._place.lanes, frame)
-        self._folded = {panel.name for panel in shown} - unfolded
-        shared = self._shared(shown, self._place.lanes, frame, unfolded)
-        for name in reversed(self._recent):
-            if shared is None:  # there is no room for all titles
-                shown = [panel for panel in shown if panel.name != name]
-                shared = self._shared(shown, self._place.lanes, frame, unfolded)
-        ui, gap = self.painter.ui, round(MARGIN * self.painter.ui)
-        for lane, panels in zip(self._place.lanes, shared or (), strict=False):
-            heights = [
-                (HEAD * ui, HEAD * ui)
-                if panel.name in self._folded
-                else self._heights(panel, frame, lane)
-                for panel in panels
-            ]
-            more = [max(wanted - least, 0.0) for least, wanted in heights]
-            rest = lane.height - gap * (len(panels) - 1) - sum(least for least, _ in heights)
-            share = min(1.0, rest / sum(more)) if sum(more) > 0 else 0.0
-            top = lane.top
-            for panel, (least, _), extra in zip(panels, heights, more, strict=True):
-                height = int(least + share * extra)
-                yield panel, pygame.Rect(lane.left, top, lane.width, height)
+        levels = dict.fromkeys(reversed(self._recent), 2)  # 2: whole, 1: folded, 0: left out
+        while (stacks := self._stacks(lanes, levels, frame)) is None:
+            *others, _ = levels
+            levels[max(others, key=levels.__getitem__)] -= 1
+        self._folded = {name for name, level in levels.items() if level == 1}
+        gap, found = round(MARGIN * self.painter.ui), {}
+        for lane, stack in zip(lanes, stacks, strict=True):
+            more = sum(wanted - least for _, least, wanted in stack)
+            rest = lane.height - gap * (len(stack) - 1) - sum(least for _, least, _ in stack)
+            share, top = min(1.0, rest / more) if more else 0.0, lane.top
+            for name, least, wanted in stack:
+                height = int(least + share * (wanted - least))
+                found[name] = pygame.Rect(lane.left, top, lane.width, height)
                 top += height + gap
+        return found
+
+    def _stacks(
+        self, lanes: Sequence[pygame.Rect], levels: Mapping[str, int], frame: Frame
+    ) -> list[list[tuple[str, float, float]]] | None:
+        """Return the panels of each lane with their least and wanted heights; None for no room.
+
+        Each is put where most room is left.
+        """
+        gap, head = round(MARGIN * self.painter.ui), HEAD * self.painter.ui
+        stacks: list[list[tuple[str, float, float]]] = [[] for _ in lanes]
+        rooms = [lane.height + gap for lane in lanes]
+        for panel in self._shown:
+            k, level = rooms.index(max(rooms)), levels[panel.name]
+            least, wanted = self._heights(panel, frame, lanes[k]) if level > 1 else (head, head)
+            if level:
+                rooms[k] -= round(least) + gap
+                stacks[k].append((panel.name, least, max(least, wanted)))
+        return stacks if min(rooms) >= 0 else None
 
     def _aside(self, spot: tuple[float, float] | None) -> tuple[int, int]:
         """Return by how much all panels are moved, so that they do not cover a spot, pixels."""
@@ -370,8 +350,9 @@ class Dock:
         ui, theme = self.painter.ui, self.painter.theme
         self.plates, self.closes = {}, {}
         away = self._aside(spot)
-        for panel, place in self._placed(frame):
-            plate = place.move(away)
+        plates = self._plates(self._place.lanes, frame) if self._place else {}
+        for panel in (panel for panel in self._shown if panel.name in plates):
+            plate = plates[panel.name].move(away)
             if free is not None and plate.colliderect(free):
                 continue
             self.painter.panel(surface, plate, theme.plate, 8 * ui, theme.edge)

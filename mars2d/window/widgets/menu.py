@@ -18,6 +18,8 @@ SIZE, SMALL = 14.5, 12.5
 """The heights of letters of an entry and of the line below it, points."""
 SCALE, LEAST = 0.9, 220.0
 """How large a docked menu is, beside others, and the width below which it gets smaller, points."""
+CHOSEN = "✓"
+"""The value that marks the entry of what holds now, which is chosen when a menu opens."""
 TICK = [(0.22, 0.52), (0.42, 0.74), (0.80, 0.26)]
 FIELD = 320.0
 """The room for a field to type in, points."""
@@ -110,7 +112,8 @@ class Menu:
         """
         self.name, self._entries, self.corner = name, entries, corner
         self._stays, self._asks = stays or asks, asks
-        self._typed, self._first, self._chosen = "", 0, -1
+        now = (k for k, entry in enumerate(entries()) if entry.value == CHOSEN)
+        self._typed, self._first, self._chosen = "", 0, next(now, 0) - 1
         self._move(1)
 
     def close(self) -> None:

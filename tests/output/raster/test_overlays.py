@@ -85,9 +85,6 @@ def test_the_legends_lie_side_by_side(scale):
     assert len(np.flatnonzero(np.diff(both.astype(int)))) == 4  # with a gap between them
 
 
-# -- names ----------------------------------------------------------------------------------------
-
-
 # -- neighbours -----------------------------------------------------------------------------------
 
 
@@ -105,6 +102,3 @@ def test_neighbours_are_linked():
     last_two = Graph([[0, 0, 0], [0, 0, 1], [0, 0, 0]])
     assert linked(frame_of(places, neighbours=last_two)) == [False, True]
     assert linked(frame_of(places)) == [False, False], "all are neighbours: that says nothing"
-
-
-# -- layers ---------------------------------------------------------------------------------------
