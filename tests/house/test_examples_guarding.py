@@ -34,6 +34,7 @@ def outcome(name, seed=0, **options):
         ("guard_the_line", {"mu": 0.6, "seed": 5}),
         ("capture_the_flag", {"seed": 4}),
         ("capture_the_flag", {"attackers": 2, "seed": 1}),
+        ("capture_the_flag", {"carry": True, "attacker": "attackers/relay.py", "seed": 1}),
         ("capture_the_flag", {"guards": 1, "attackers": 1, "mu": 0.8}),
         ("round_a_pillar", {"mu": 1.5, "seed": 2}),
         ("round_a_pillar", {"mu": 1.0, "seed": 1}),
@@ -127,6 +128,13 @@ def test_more_than_the_matching_reach_the_flag_only_past_worse_guards():
         for guard in ("match", "nearest")
     }
     assert winners["match"].count("guard") > winners["nearest"].count("guard") == 0
+
+
+def test_a_relay_carries_the_flag_home_past_guards_that_follow_its_decoys_alone():
+    options = {"carry": True, "attacker": "relay"}
+    for guard, winner in (("match", "attacker"), ("home", "guard")):
+        for seed in (1, 2, 3):
+            assert outcome("capture_the_flag", seed, guard=guard, **options)[1].winner == winner
 
 
 def test_either_role_wins_the_games_at_their_defaults():
