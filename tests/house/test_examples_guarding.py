@@ -44,8 +44,10 @@ def outcome(name, seed=0, **options):
         ("hide_and_seek", {"mu": 1.4, "pillar": 2.5}),
         ("escort", {"mu": 0.48, "seed": 2}),
         ("escort", {"mu": 0.56, "seed": 4}),
+        ("escort", {"mu": 0.6, "seed": 1}),
         ("selfish_herd", {"number": 24, "seed": 5}),
         ("selfish_herd", {"number": 2, "seed": 6}),
+        ("selfish_herd", {"number": 12, "seed": 2}),
         ("pinned", {"strength": 1.18}),
         ("pinned", {"strength": 1.27}),
         (
