@@ -94,19 +94,20 @@ def test_all_laws_of_a_game_play_each_other(name):
 
 
 @pytest.mark.parametrize(
-    ("name", "options"),
+    ("name", "share", "options"),
     [
-        ("guard_the_line", {"mu": 0.7}),
-        ("capture_the_flag", {"guards": 1, "attackers": 1, "mu": 0.8, "seed": 1}),
-        ("straight_chase", {"evader": "evaders/away.py", "seed": 1}),
+        ("guard_the_line", 0.67, {"mu": 0.7}),
+        ("capture_the_flag", 0.67, {"guards": 1, "attackers": 1, "mu": 0.8, "seed": 1}),
+        ("straight_chase", 0.67, {"evader": "evaders/away.py", "seed": 1}),
+        ("homicidal_chauffeur", 0.99, {"ratio": 0.7, "reach": 0.6, "seed": 1}),
     ],
 )
-def test_the_rings_of_the_best_play_are_about_those_who_play_it(name, options):
+def test_the_rings_of_the_best_play_are_about_those_who_play_it(name, share, options):
     record, _, _ = played(name, **options)
-    frame, scene = record.frame(len(record) * 2 // 3), Scene()
+    frame, scene = record.frame(int(len(record) * share)), Scene()
     record.scenario.addons[1].theory(scene, frame)
-    size = frame.scenario.robots[0].radius
-    rings = [shape.center for shape in scene.shapes if getattr(shape, "radius", 0) == size]
+    sizes = {robot.radius for robot in frame.scenario.robots}
+    rings = [shape.center for shape in scene.shapes if getattr(shape, "radius", 0) in sizes]
     assert np.array(rings) == pytest.approx(frame.pose[:2].T, abs=0.1)
     assert np.hypot(*(frame.pose - frame.scenario.initial_pose)[:2]).min() > 0.5
 
