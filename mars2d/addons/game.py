@@ -285,7 +285,9 @@ class Game(Elimination):
             if self.goal is None:
                 return f"{verb} {some}" + (f" within {self.par:g} s" if self.par else "")
             place = "in the goal" if self.home is None else "home with the flag"
-            return f"{verb} {some} before {_so_many_are(len(evaders), needed)} {place}"
+            safe, many = len(evaders) - needed + 1, len(evaders) > 1
+            who = f"{safe} of {len(evaders)} {'is' if safe == 1 else 'are'}" if many else "it is"
+            return f"{verb} {some} before {who} {place}"
         if self.goal is not None:
             way = "reach the goal" if self.home is None else "bring the flag home"
             return way + ("" if self.capture is None else " uncaught")
@@ -365,12 +367,6 @@ def _carried(
             until[carrier] = span.time[row]
             safe.append((float(span.time[row]), carrier))
         carrier = None
-
-
-def _so_many_are(count: int, needed: int) -> str:
-    """Return how many of so many evaders decide it by their goal, with the verb."""
-    safe = count - needed + 1
-    return "it is" if count == 1 else f"{safe} of {count} {'is' if safe == 1 else 'are'}"
 
 
 def _touches(teams: Teams, span: Span, together: int) -> list[Exit]:
