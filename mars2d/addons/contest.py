@@ -174,18 +174,23 @@ def listed(scenario: ScenarioLike, team: tuple[int, ...]) -> str:
 
 
 class Span(NamedTuple):
-    """Some control steps of a run: times (T,), poses (T, 3, n), and all contacts, in order."""
+    """Some control steps of a run: times (T,), poses (T, 3, n), and all contacts, in order.
+
+    carrier: the index of the robot that carries the flag at first.
+    """
 
     scenario: ScenarioLike
     time: Float
     pose: Float
     contacts: Contacts
+    carrier: int | None = None
 
 
 class Exit(NamedTuple):
     """A robot that leaves: when [s], its index, its result, and the index of who caught it.
 
-    The result is -1 for one that is caught or shoved out, and 1 for one that is safe.
+    The result is -1 for one that is caught or shoved out, and 1 for one that is safe. It is 0 for
+    one that takes the flag, and plays on.
     """
 
     time: float
@@ -206,7 +211,7 @@ class Elimination(Contest):
 
     @abstractmethod
     def exits(self, teams: Teams, span: Span) -> list[Exit]:
-        """Return which robots of two teams leave in a span of a run, each once."""
+        """Return which robots of two teams leave, each once, or take the flag, in a span."""
 
     @abstractmethod
     def judged(self, teams: Teams, exits: Sequence[Exit], time_is_over: bool) -> Outcome:
@@ -234,7 +239,7 @@ class Elimination(Contest):
         before = self._before or (time, world.pose)
         times, poses = map(np.array, zip(before, (time, world.pose), strict=True))
         self._before = time, world.pose
-        span = Span(world.scenario, times, poses, world.contacts)
+        span = Span(world.scenario, times, poses, world.contacts, carrier_after(self._exits))
         now = self.exits((one, other), span)
         self._exits += tuple(now)
         self._time_is_over = self.time_is_over(world.scenario, world.iteration)
@@ -243,12 +248,13 @@ class Elimination(Contest):
         if why:
             world.stop(why)
         for leaving in now if self.holds_last or not why else ():
-            world.hold(leaving.robot)
+            if leaving.result:
+                world.hold(leaving.robot)
 
     @property
     def results(self) -> dict[int, float]:
         """The results of robots that are out: -1 if caught or shoved out, 1 if safe."""
-        return {leaving.robot: leaving.result for leaving in self._exits}
+        return {leaving.robot: leaving.result for leaving in self._exits if leaving.result}
 
     @property
     def score(self) -> dict[str, int]:
@@ -273,6 +279,12 @@ class Elimination(Contest):
         pose = np.concatenate([frame.path, frame.pose[None]])
         span = Span(frame.scenario, np.append(time, frame.time), pose, frame.contact_log())
         return self.exits(self.players(frame.scenario), span)
+
+
+def carrier_after(exits: Sequence[Exit]) -> int | None:
+    """Return the index of the robot that carries the flag after exits; None: it is in its place."""
+    out = {leaving.robot for leaving in exits if leaving.result}
+    return next((e.robot for e in exits if not e.result and e.robot not in out), None)
 
 
 def firsts(time: Float, there: NDArray[np.bool_], robots: Sequence[int]) -> list[tuple[float, int]]:

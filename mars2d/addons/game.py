@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.addons.contest import (
+    MARK,
     Capture,
     Elimination,
     Exit,
@@ -18,6 +19,7 @@ from mars2d.addons.contest import (
     Outcome,
     Span,
     Teams,
+    carrier_after,
     firsts,
     listed,
     mark,
@@ -36,8 +38,10 @@ if TYPE_CHECKING:
     import shapely
 
 CONTACT, SIGHT = "contact", "sight"
-GRASS = "#dcebdc"
-"""The colour of the floor of a goal."""
+GRASS, HOME = "#dcebdc", "#dce4ef"
+"""The colours of the floor of a goal, and of a home."""
+FLAG = 0.8
+"""The height of a flag, metres."""
 FURTHER = 2.0
 """How many times its drive's speed a robot is never pushed at."""
 TINY = 1e-30
@@ -75,8 +79,11 @@ class Game(Elimination):
     time is over before, which is at the `par` if there is one. Either ends the experiment, unless
     it goes on `to_the_end`. Whatever else ends it leaves a game undecided.
 
-    Laws find how it stands in `score`, `winner`, `caught`, `free`, `safe` and `capture_times`. Of
-    a record, `outcome` says the same, also of a loaded one.
+    With a `home`, a flag stands in the goal. The first evader there takes it, and is safe only when
+    it has carried it home; then, or when its carrier is caught, the flag is back in its place.
+
+    Laws find how it stands in `score`, `winner`, `caught`, `free`, `safe`, `carrier` and
+    `capture_times`. Of a record, `outcome` says the same, also of a loaded one.
     """
 
     capture: str | float | None = entry(
@@ -86,6 +93,10 @@ class Game(Elimination):
     goal: Outline | None = entry(
         default=None, check=checks.optional(checks.outline, 3), unit="m",
         doc="the polygon that the evaders must reach; None: they must stay free",
+    )  # fmt: skip
+    home: Outline | None = entry(
+        default=None, check=checks.optional(checks.outline, 3), unit="m",
+        doc="the polygon that evaders carry the flag to, from the goal; None: they need not",
     )  # fmt: skip
     hunted: tuple[str | int, ...] | None = entry(
         default=None, check=checks.optional(robots_of),
@@ -114,6 +125,8 @@ class Game(Elimination):
         super()._validate()
         if self.capture is None and self.goal is None:
             raise wrong("Game.capture", None, "a way to capture, or a goal that evaders must reach")
+        if self.home is not None and self.goal is None:
+            raise wrong("Game.home", self.home, "a goal, too, where the flag stands")
 
     def players(self, scenario: ScenarioLike) -> Teams:
         """Return the indices of the hunters in a scenario, and of those that they hunt.
@@ -139,7 +152,10 @@ class Game(Elimination):
         return hunters, evaders
 
     def exits(self, teams: Teams, span: Span) -> list[Exit]:
-        """Return the evaders that are caught, in order, then those that reach the goal before."""
+        """Return the evaders that are caught, in order, then those that are safe before.
+
+        With a home, those that take the flag follow.
+        """
         captures: list[Exit] = []
         if self.capture == CONTACT:
             captures = _touches(teams, span, self.together)
@@ -147,25 +163,29 @@ class Game(Elimination):
             captures = _approaches(teams, span, np.inf, _sights(teams, span), self.together)
         elif self.capture is not None:
             captures = _approaches(teams, span, float(self.capture), np.True_, self.together)
-        safe = []
+        safe: list[tuple[float, int]] = []
+        taken: list[Exit] = []
         if self.goal is not None:
-            x, y, _ = span.pose.swapaxes(0, 1)
-            inside = ~outside_polygon(x.ravel(), y.ravel(), np.array(self.goal))
-            safe = firsts(span.time, inside.reshape(x.shape), teams[1])
+            there = _inside(self.goal, span)
+            if self.home is None:
+                safe = firsts(span.time, there, teams[1])
+            else:
+                there &= np.isin(np.arange(there.shape[1]), teams[1])
+                safe, taken = _carried(there, _inside(self.home, span), span, captures)
         before = {robot: when for when, robot in safe}
         caught: dict[int, Exit] = {}
         for capture in captures:
             if capture.time <= before.get(capture.robot, np.inf):
                 caught.setdefault(capture.robot, capture)
         arrived = [Exit(when, robot, 1.0) for when, robot in safe if robot not in caught]
-        return [*caught.values(), *arrived]
+        return [*caught.values(), *arrived, *taken]
 
     def judged(self, teams: Teams, exits: Sequence[Exit], time_is_over: bool) -> Outcome:
         """Return the captures, how many are caught and how many are not, and who has won."""
         (hunting, _), (evading, _) = self.roles
         captures = tuple(Capture(e.time, e.hunter, e.robot) for e in exits if e.hunter is not None)
         needed, left = self.wanted or len(teams[1]), len(teams[1]) - len(captures)
-        in_time = [leaving for leaving in exits if leaving.time <= (self.par or np.inf)]
+        in_time = [e for e in exits if e.result and e.time <= (self.par or np.inf)]
         caught = sum(leaving.hunter is not None for leaving in in_time)
         safe = (
             len(teams[1]) - caught if time_is_over and self.goal is None else len(in_time) - caught
@@ -212,6 +232,11 @@ class Game(Elimination):
         return tuple(robot for robot, result in self.results.items() if result > 0)
 
     @property
+    def carrier(self) -> int | None:
+        """The index of the evader that carries the flag; None: nobody does."""
+        return carrier_after(self._exits)
+
+    @property
     def free(self) -> tuple[int, ...]:
         """The indices of the evaders that are neither caught nor safe in the goal."""
         return tuple(robot for robot in self._teams[1] if robot not in self.results)
@@ -234,7 +259,8 @@ class Game(Elimination):
         if self.goal is not None and self.winner == self.roles[1][0]:
             count = len(self.safe)
             who = f"{names[self.safe[0]]} has" if evaders == 1 else f"{count} of {evaders} have"
-            return f"{who} reached the goal after {world.time:g} s{won}"
+            done = "reached the goal" if self.home is None else "brought the flag home"
+            return f"{who} {done} after {world.time:g} s{won}"
         if self.goal is not None:
             return f"finished after {world.time:g} s{won}"
         count, done = len(self.free), "seen" if self.capture == SIGHT else "caught"
@@ -258,9 +284,13 @@ class Game(Elimination):
             some = whom if needed == len(evaders) else f"{needed} of {len(evaders)}"
             if self.goal is None:
                 return f"{verb} {some}" + (f" within {self.par:g} s" if self.par else "")
-            return f"{verb} {some} before {_so_many_are(len(evaders), needed)} in the goal"
+            place = "in the goal" if self.home is None else "home with the flag"
+            safe, many = len(evaders) - needed + 1, len(evaders) > 1
+            who = f"{safe} of {len(evaders)} {'is' if safe == 1 else 'are'}" if many else "it is"
+            return f"{verb} {some} before {who} {place}"
         if self.goal is not None:
-            return "reach the goal" + ("" if self.capture is None else " uncaught")
+            way = "reach the goal" if self.home is None else "bring the flag home"
+            return way + ("" if self.capture is None else " uncaught")
         if self.hunted is not None:
             return f"let nobody catch {whom} {time}"
         return f"stay out of sight {time}" if self.capture == SIGHT else f"stay free {time}"
@@ -268,18 +298,26 @@ class Game(Elimination):
     # -- how it looks ------------------------------------------------------------------------------
 
     def paint(self, scene: Scene, area: Outline) -> None:  # noqa: ARG002
-        """Paint the floor of the goal."""
-        if self.goal is not None:
-            scene.polygon(self.goal, fill=GRASS)
+        """Paint the floor of the goal, and of the home."""
+        for floor, color in ((self.home, HOME), (self.goal, GRASS)):
+            if floor is not None:
+                scene.polygon(floor, fill=color)
 
     def draw(self, scene: Scene, frame: FrameLike) -> None:
-        """Cross out the caught ones, ring those that are safe; draw the hunters' reach."""
+        """Cross out the caught ones, ring the safe ones; draw the flag and the hunters' reach."""
         scenario = frame.scenario
         if isinstance(self.capture, float):
             for robot in self.players(scenario)[0]:
                 color = faded(scenario.colors[robot], 0.5)
                 scene.circle(frame.pose[:2, robot], self.capture, stroke=color)
-        for leaving in self.exits_at(frame):
+        exits = self.exits_at(frame)
+        if self.home is not None and self.goal is not None:
+            carrier = carrier_after(exits)
+            at = np.mean(self.goal, axis=0) if carrier is None else frame.pose[:2, carrier]
+            tall, wide, half = at + FLAG * np.array([(0, 1), (0.7, 0.75), (0, 0.5)])
+            scene.line([at, tall], stroke=MARK, width=2.0)
+            scene.polygon([tall, wide, half], fill="#e8a200", stroke=MARK)
+        for leaving in filter(lambda leaving: leaving.result, exits):
             hunter, above = leaving.hunter, True
             if hunter is not None:
                 above = bool(frame.pose[1, leaving.robot] > frame.pose[1, hunter])
@@ -289,10 +327,46 @@ class Game(Elimination):
             mark(scene, frame, leaving, above=above)
 
 
-def _so_many_are(count: int, needed: int) -> str:
-    """Return how many of so many evaders decide it by their goal, with the verb."""
-    safe = count - needed + 1
-    return "it is" if count == 1 else f"{safe} of {count} {'is' if safe == 1 else 'are'}"
+def _inside(outline: Outline, span: Span) -> NDArray[np.bool_]:
+    """Return which robots' poses are in a polygon, (T, n)."""
+    x, y, _ = span.pose.swapaxes(0, 1)
+    return ~outside_polygon(x.ravel(), y.ravel(), np.array(outline)).reshape(x.shape)
+
+
+def _carried(
+    at_flag: NDArray[np.bool_],
+    at_home: NDArray[np.bool_],
+    span: Span,
+    captures: Sequence[Exit],
+) -> tuple[list[tuple[float, int]], list[Exit]]:
+    """Return when which robots have carried the flag home, and who takes it, in order.
+
+    at_flag: which evaders are where it stands, (T, n). at_home: who is at home, (T, n).
+    """
+    until = np.full(at_flag.shape[1], np.inf)  # when each is out
+    for capture in reversed(captures):
+        until[capture.robot] = capture.time
+    row, carrier = 0, span.carrier
+    safe: list[tuple[float, int]] = []
+    taken: list[Exit] = []
+    while True:
+        if carrier is None:
+            ready = at_flag[row:] & (span.time[row:, None] < until)
+            if not ready.any():
+                return safe, taken
+            first, carrier = np.argwhere(ready)[0].tolist()
+            row += first
+            taken.append(Exit(float(span.time[row]), carrier, 0.0))
+        caught = span.time[row:] >= until[carrier]
+        over = caught | at_home[row:, carrier]
+        if not over.any():
+            return safe, taken
+        last = int(over.argmax())
+        row += last
+        if not caught[last]:
+            until[carrier] = span.time[row]
+            safe.append((float(span.time[row]), carrier))
+        carrier = None
 
 
 def _touches(teams: Teams, span: Span, together: int) -> list[Exit]:

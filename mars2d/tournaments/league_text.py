@@ -2,16 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from mars2d.core.errors import one_line
 from mars2d.core.terminal import aligned
-from mars2d.tournaments.league import (
-    UNPROTECTED,
-    Tournament,
-    league_tables,
-    matches_of,
-)
+from mars2d.tournaments.league import UNPROTECTED, Tournament, league_tables, matches_of
 
 MAX_WIDTH = 100
 """The greatest width of the table of pairings; a wider one is only on the page."""
@@ -31,12 +24,6 @@ def league_text(tournament: Tournament) -> str:
     return "\n\n".join(filter(None, told))
 
 
-def _fitting(lines: Sequence[Sequence[str]]) -> str:
-    """Return a table whose first column are names; empty if it is wider than `MAX_WIDTH`."""
-    table = aligned(lines, left=1)
-    return "\n".join(table) if max(map(len, table)) <= MAX_WIDTH else ""
-
-
 def _pairings(tournament: Tournament) -> str:
     """Return the points that laws took from each other, if there is more than one pairing."""
     points = tournament.head_to_head()
@@ -51,8 +38,8 @@ def _pairings(tournament: Tournament) -> str:
         (law, *(f"{sum(taken):g}" if taken else "-" for taken in rivals.values()))
         for law, rivals in points.items()
     ]
-    table = _fitting([(f"{first} \\ {second}", *columns), *rows])
-    return f"{title}\n{table}" if table else ""
+    table = aligned([(f"{first} \\ {second}", *columns), *rows], left=1)
+    return "\n".join([title, *table]) if max(map(len, table)) <= MAX_WIDTH else ""
 
 
 def _faults(tournament: Tournament) -> str:

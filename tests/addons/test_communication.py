@@ -425,21 +425,11 @@ def test_what_makes_no_channel_is_refused(make, words):
 # -- drawing --------------------------------------------------------------------------------------
 
 
-def links(record_or_world, row=None) -> list:
-    frame = record_or_world.frame if row is None else record_or_world.frame(row)
-    return messages(frame).shapes
-
-
-def spoken(talk: Communication, **fields) -> World:
-    world = World(team(2, gap=2.0, talk=talk, **fields))
-    world.robots[0].send("x", to=1)
-    stand(world)
-    return world
-
-
 def test_a_message_that_arrives_is_an_arrow_from_rim_to_rim():
-    world = spoken(Communication())
-    line, arrow = links(world)
+    world = World(team(2, gap=2.0))
+    to_one(world)
+    stand(world)
+    line, arrow = messages(world.frame).shapes
     assert isinstance(line, Line)
     assert isinstance(arrow, Arrow)
     start, end = line.points
@@ -448,6 +438,3 @@ def test_a_message_that_arrives_is_an_arrow_from_rim_to_rim():
     assert start[1] == end[1] < 0  # on the right, so that the way back can be seen, too
     assert arrow.tip == pytest.approx(tuple(end))
     assert arrow.fill.startswith(world.scenario.colors[0])
-
-
-# -- examples -------------------------------------------------------------------------------------

@@ -6,10 +6,10 @@ import pytest
 import mars2d
 from mars2d import World
 from mars2d.addons import Game
-from mars2d.core.scene import Circle, Line, Scene, Text
+from mars2d.core.scene import Circle, Line, Polygon, Scene, Text
 from mars2d.world.verify import rerun
 from tests.addons.test_game import ROLES, chase
-from tests.addons.test_game_goal import looking, race
+from tests.addons.test_game_goal import carried, looking, race
 from tests.addons.test_ring import bout
 from tests.cases import each_case
 from tests.worlds import finished
@@ -33,6 +33,8 @@ def drawn(addon, frame):
         (chase(Game(ROLES, capture=1.02)), [Circle], [Circle, *CROSSED], ["2 s"]),
         (race([0.0, 1.0, 0.0], 2.0, **RACE), [Circle], [Circle, *CROSSED, *RINGED],
          ["1.2 s", "0.5 s"]),
+        (carried(), [Circle, Line, Polygon], [Circle, Line, Polygon, *CROSSED, *RINGED],
+         ["4.2 s", "14 s"]),
         (looking(0.25), [], [Line, *CROSSED], ["5.4 s"]),
         (bout([1.0, 0.5, 0.6, 0.0]), [Circle], [Circle, *3 * CROSSED], ["2 s", "3.1 s", "3.9 s"]),
     ],

@@ -39,6 +39,17 @@ def read_at(point, *floors, sensor=None):
     return world.robots[0].sense.ground.tolist()
 
 
+CAMERA = Camera(scale=10.0, x=50.0, y=50.0)  # (-5, -5) to (5, 5) on 100 x 100 pixels
+
+
+def painted(scene):
+    """The pixels (height, width, 3) of a scene."""
+    surface = pygame.Surface((100, 100), 0, 32)
+    surface.fill("white")
+    Painter().paint(surface, scene.shapes, CAMERA)
+    return pygame.surfarray.array3d(surface).swapaxes(0, 1)
+
+
 # -- what is read ---------------------------------------------------------------------------
 
 
@@ -57,33 +68,18 @@ LATER = Floor(patches=[(SQUARE, "#ff0000"), (OVER, "#0000ff")])
         ([LATER], (0.5, 1), (0, 0, 0), [1, 0, 0]),
         ([LATER], (1.5, 1), (0, 0, 0), [0, 0, 1]),  # the later patch lies on top
         ([Floor(color="#0000ff", name="a"), Floor(color="#ff0000")], (0, 0), (0, 0, 0), [1, 0, 0]),
+        ([Floor(color="#ff0000"), Floor(name="a")], (0, 0), (0, 0, 0), [1, 0, 0]),
         ([PATCH], (-0.2, 1), (0, 0, 0), [1, 1, 1]),
         ([PATCH], (-0.2, 1), (0.3, 0, 0), [1, 0, 0]),
         ([PATCH], (1, 2.1), (0, -0.2, 0), [1, 0, 0]),
     ],
 )
-def test_the_uppermost_colour_below_the_mount_is_read(floors, point, mount, color):
+def test_the_uppermost_colour_below_the_mount_is_read_as_it_is_seen(floors, point, mount, color):
     assert read_at(point, *floors, sensor=Ground(mount=mount)) == color
-
-
-FLOORS = {
-    "one": [Floor(patches=[(SQUARE, "#ff0000")])],
-    "two": [Floor(color="#ff0000"), Floor(name="upper", patches=[(SQUARE, "#0000ff")])],
-    "white over red": [Floor(color="#ff0000"), Floor(name="upper", color="#ffffff")],
-    "nothing over red": [Floor(patches=[(SQUARE, "#ff0000")]), Floor(name="upper")],
-}
-
-
-@each_case("floors", FLOORS)
-def test_what_is_read_is_what_is_seen(floors):
-    floors = FLOORS[floors]
-    scene = Scene()
+    scene, (x, y) = Scene(), np.add(point, mount[:2])
     for floor in floors:
         floor.paint(scene, [(-5, -5), (5, -5), (5, 5), (-5, 5)])
-    seen = painted(scene)
-    for x, y in ((1, 1), (3, 1), (-3, -3)):
-        color = (seen[int(50 - 10 * y), int(50 + 10 * x)] / 255).tolist()
-        assert read_at((x, y), *floors) == color
+    assert (painted(scene)[int(50 - 10 * y), int(50 + 10 * x)] / 255).tolist() == color
 
 
 def test_each_pixel_of_an_image_covers_its_part_of_the_floor(picture):
@@ -178,25 +174,10 @@ def test_an_image_that_can_not_be_used_is_an_error_when_a_world_is_made(tmp_path
 # -- what is seen ---------------------------------------------------------------------------
 
 
-CAMERA = Camera(scale=10.0, x=50.0, y=50.0)  # (-5, -5) to (5, 5) on 100 x 100 pixels
-
-
-def painted(scene, camera=CAMERA, size=(100, 100)):
-    """The pixels (height, width, 3) of a scene."""
-    surface = pygame.Surface(size, 0, 32)
-    surface.fill("white")
-    Painter().paint(surface, scene.shapes, camera)
-    return pygame.surfarray.array3d(surface).swapaxes(0, 1)
-
-
-def image_scene(pixels, bounds):
-    scene = Scene()
-    scene.image(pixels, bounds)
-    return scene
-
-
 def test_an_image_is_painted_where_it_lies_with_its_first_row_on_top(picture):
-    made = painted(image_scene(picture, (-3, 3, -1, 3)))
+    scene = Scene()
+    scene.image(picture, (-3, 3, -1, 3))
+    made = painted(scene)
     for row in range(2):
         for column in range(3):
             part = made[20 + 20 * row : 40 + 20 * row, 20 + 20 * column : 40 + 20 * column]

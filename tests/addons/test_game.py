@@ -142,9 +142,6 @@ def test_contacts_with_others_are_no_captures():
     assert scenario.addons[0].outcome(record).captures == ()
 
 
-# -- records ------------------------------------------------------------------------------------
-
-
 # -- what is refused ----------------------------------------------------------------------------
 
 

@@ -1,16 +1,19 @@
 """The add-on Game where evaders have a goal, are seen, are helped, or where some are enough."""
 
+from itertools import groupby
+
 import numpy as np
 import pytest
 
-from mars2d import Holonomic, InputError, Robot, Scenario
+from mars2d import Holonomic, InputError, Robot, Scenario, World
 from mars2d.addons import Game, Map
+from mars2d.addons.contest import carrier_after
 from mars2d.core.scene import Circle, Line, Scene, Text
 from mars2d.sensors import RangeBearing
 from tests.cases import each_case
 from tests.worlds import finished
 
-GOAL = [(2, -5), (5, -5), (5, 5), (2, 5)]
+GOAL, LEFT = ([(x, -5), (x + 3, -5), (x + 3, 5), (x, 5)] for x in (2, -4))
 
 
 def going(vx):
@@ -97,6 +100,39 @@ def test_who_is_caught_before_the_goal_is_not_safe_when_it_is_pushed_in():
     assert world.addons.game.safe == ()
 
 
+# -- a flag to carry home -----------------------------------------------------------------------
+
+
+def carried(capture=0.6, **fields):
+    """Blue 0 takes the flag and is caught on its way home; blue 1, who has waited there, is not."""
+    scenario = race([1, 0.5], 1.0, stop_time=20.0, capture=capture, home=LEFT, **fields)
+    red, *team = scenario.robots
+    robots = [
+        robot.replace(controller=lambda r, v=v, t=t: (v if r.time < t else -v, 0.0)).at(0, y)
+        for robot, v, t, y in zip(team, (1.0, 0.5), (2.5, 6.0), (0.45, 1.5), strict=True)
+    ]
+    return scenario.replace(robots=[red.at(-4, 0.45), *robots])
+
+
+@each_case("capture", [0.6, "contact"])
+def test_who_carries_a_flag_is_safe_at_home_alone_live_and_in_a_record(capture):
+    world, carriers = World(carried(capture)), []
+    game = world.addons.game
+    while not world.over:
+        exits = game.exits_at(world.frame)
+        world.step()
+        assert carrier_after(exits) == game.carrier
+        assert {
+            leaving.robot: leaving.result for leaving in exits if leaving.result
+        } == game.results
+        carriers.append(game.carrier)
+    assert [robot for robot, _ in groupby(carriers)] == [None, 1, 2, None]
+    assert (game.caught, game.safe, game.winner) == ((1,), (2,), "attacker")
+    assert world.over_message == "1 of 2 have brought the flag home after 14 s: attacker wins"
+    assert game.outcome(world.record).winner == "attacker"
+    assert game.aim("attacker", world.scenario) == "bring the flag home uncaught"
+
+
 # -- sight --------------------------------------------------------------------------------------
 
 PILLAR = Map([[(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)]])
@@ -150,6 +186,7 @@ def test_only_the_hunted_are_caught_and_the_second_role_helps_them():
         ({"hunted": []}, r"Game.hunted = .*nobody has this role"),
         ({"capture": "sigth"}, "did you mean 'sight'"),
         ({"par": 0}, "Game.par = 0"),
+        ({"home": GOAL}, "Game.home = .*: expected a goal, too"),
     ],
 )
 def test_games_that_can_not_be_are_refused_in_words(fields, words):

@@ -69,9 +69,6 @@ def test_it_is_a_draw_when_time_is_over_or_the_last_ones_leave_at_once(speeds, s
     assert world.addons.ring.outcome(world.record)[:3] == ((), score, None)
 
 
-# -- records ------------------------------------------------------------------------------------
-
-
 # -- what is refused ----------------------------------------------------------------------------
 
 

@@ -25,7 +25,9 @@ def bout(red, blue, seed=0):
         ("shove_and_spin", {"mu": 0.6, "lever": -0.1}),  # the discs' slip ends
         ("shove_and_spin", {"e": 1.0, "v": 0.4}),
         ("tug_of_war", {"blue": 6.3, "tow": 3.0}),
+        ("tug_of_war", {"blue": 7.0}),
         ("sumo", {"blue": "players/flanker.py"}),
+        ("sumo", {"blue": "players/dodger.py"}),
     ],
 )
 def test_a_game_agrees_with_its_predictions(name, options):

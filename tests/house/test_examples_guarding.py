@@ -34,6 +34,7 @@ def outcome(name, seed=0, **options):
         ("guard_the_line", {"mu": 0.6, "seed": 5}),
         ("capture_the_flag", {"seed": 4}),
         ("capture_the_flag", {"attackers": 2, "seed": 1}),
+        ("capture_the_flag", {"carry": True, "attacker": "attackers/relay.py", "seed": 1}),
         ("capture_the_flag", {"guards": 1, "attackers": 1, "mu": 0.8}),
         ("round_a_pillar", {"mu": 1.5, "seed": 2}),
         ("round_a_pillar", {"mu": 1.0, "seed": 1}),
@@ -43,8 +44,10 @@ def outcome(name, seed=0, **options):
         ("hide_and_seek", {"mu": 1.4, "pillar": 2.5}),
         ("escort", {"mu": 0.48, "seed": 2}),
         ("escort", {"mu": 0.56, "seed": 4}),
+        ("escort", {"mu": 0.6, "seed": 1}),
         ("selfish_herd", {"number": 24, "seed": 5}),
         ("selfish_herd", {"number": 2, "seed": 6}),
+        ("selfish_herd", {"number": 12, "seed": 2}),
         ("pinned", {"strength": 1.18}),
         ("pinned", {"strength": 1.27}),
         (
@@ -91,19 +94,20 @@ def test_all_laws_of_a_game_play_each_other(name):
 
 
 @pytest.mark.parametrize(
-    ("name", "options"),
+    ("name", "share", "options"),
     [
-        ("guard_the_line", {"mu": 0.7}),
-        ("capture_the_flag", {"guards": 1, "attackers": 1, "mu": 0.8, "seed": 1}),
-        ("straight_chase", {"evader": "evaders/away.py", "seed": 1}),
+        ("guard_the_line", 0.67, {"mu": 0.7}),
+        ("capture_the_flag", 0.67, {"guards": 1, "attackers": 1, "mu": 0.8, "seed": 1}),
+        ("straight_chase", 0.67, {"evader": "evaders/away.py", "seed": 1}),
+        ("homicidal_chauffeur", 0.99, {"ratio": 0.7, "reach": 0.6, "seed": 1}),
     ],
 )
-def test_the_rings_of_the_best_play_are_about_those_who_play_it(name, options):
+def test_the_rings_of_the_best_play_are_about_those_who_play_it(name, share, options):
     record, _, _ = played(name, **options)
-    frame, scene = record.frame(len(record) * 2 // 3), Scene()
+    frame, scene = record.frame(int(len(record) * share)), Scene()
     record.scenario.addons[1].theory(scene, frame)
-    size = frame.scenario.robots[0].radius
-    rings = [shape.center for shape in scene.shapes if getattr(shape, "radius", 0) == size]
+    sizes = {robot.radius for robot in frame.scenario.robots}
+    rings = [shape.center for shape in scene.shapes if getattr(shape, "radius", 0) in sizes]
     assert np.array(rings) == pytest.approx(frame.pose[:2].T, abs=0.1)
     assert np.hypot(*(frame.pose - frame.scenario.initial_pose)[:2]).min() > 0.5
 
@@ -127,6 +131,13 @@ def test_more_than_the_matching_reach_the_flag_only_past_worse_guards():
         for guard in ("match", "nearest")
     }
     assert winners["match"].count("guard") > winners["nearest"].count("guard") == 0
+
+
+def test_a_relay_carries_the_flag_home_past_guards_that_follow_its_decoys_alone():
+    options = {"carry": True, "attacker": "relay"}
+    for guard, winner in (("match", "attacker"), ("home", "guard")):
+        for seed in (1, 2, 3):
+            assert outcome("capture_the_flag", seed, guard=guard, **options)[1].winner == winner
 
 
 def test_either_role_wins_the_games_at_their_defaults():

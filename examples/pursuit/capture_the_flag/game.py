@@ -5,6 +5,7 @@ mars2d run capture_the_flag --set attacker=my_law.py --set attackers=4 --seed 3
 Setting: distributed, partial information: each knows its own pose and where all others are. Guards
 go 0.5 m/s, attackers mu times that. A distance of 0.5 m is a capture; an attacker is at the flag
 when its middle is within 0.5 m. One at the flag wins for all; all go on until none is free.
+With carry=True the first one there takes it, and is safe only when it has carried it home.
 Law of a guard: to a place that its attacker reaches before it; matched by who can stop whom.
 Source: Chen, Zhou and Tomlin, IEEE Trans. Automatic Control 62(3), 2017, for pairs: Isaacs, 1965.
 Prediction: a guard stops an attacker alone if the flag is outside the attacker's dominance region.
@@ -24,11 +25,12 @@ GUARD, ATTACKER = "guards/match.py", "attackers/region.py"
 GOAL = [(REACH * cos(k * pi / 12) - 4, REACH * sin(k * pi / 12)) for k in range(24)]
 
 
-def scenario(guards=2, attackers=4, mu=1.0, guard=GUARD, attacker=ATTACKER, seed: int = 0):
+def scenario(guards=2, attackers=4, mu=1.0, carry=False, guard=GUARD, attacker=ATTACKER, seed=0):
     def pairs(scene, frame):
-        out = [leaving.robot for leaving in game.exits_at(frame)]
-        free = [k for k in range(guards, guards + attackers) if k not in out]
-        team, path, most = [*range(guards), *free], [*frame.path, frame.pose], []
+        now = {leaving.robot: leaving.result for leaving in sorted(game.exits_at(frame))}
+        free = [k for k in range(guards, guards + attackers) if not now.get(k)]
+        team = [*range(guards), *(k for k in free if k not in now)]  # no carrier of the flag
+        path, most = [*frame.path, frame.pose], []
         for pose in (path[max(-11, -len(path))], frame.pose):  # a second ago, and now
             places = pose[:2, team].T
             matched = theory.matching(places, guards, mu)
@@ -54,13 +56,14 @@ def scenario(guards=2, attackers=4, mu=1.0, guard=GUARD, attacker=ATTACKER, seed
     team += [blue.replace(name=f"blue {k + 1}").at(x[1][k], y[1][k]) for k in range(attackers)]
     roles = {"guard": range(guards), "attacker": range(guards, guards + attackers)}
     walls = {"workspace": [(-6, -4), (6, -4), (6, 4), (-6, 4)], "on_exit": "wall"}
-    game = Game(roles, capture=CAPTURE, goal=GOAL, to_the_end=True)
+    flag = {"goal": GOAL, "home": theory.HOME if carry else None}
+    game = Game(roles, capture=CAPTURE, to_the_end=True, **flag)
     plan = {"title": "Capture the flag", "stop_time": 60, "animation": Animation(playback_speed=2)}
     return Scenario(robots=team, addons=[game, Theory(pairs)], **plan, **walls)
 
 
 def at_the_flag(record):
-    """How many reach the flag."""
+    """How many reach the flag, or bring it home."""
     return len(theory.safe(record))
 
 

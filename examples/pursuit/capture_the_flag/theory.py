@@ -7,6 +7,7 @@ from mars2d import Prediction
 from mars2d.geometry import dominance
 
 FLAG, REACH, CAPTURE = np.array([[-4.0], [0.0]]), 0.5, 0.5  # m
+HOME = [(3, -4), (6, -4), (6, 4), (3, 4)]
 
 
 def nearest(attacker, guard, mu):
@@ -30,12 +31,9 @@ def matching(starts, guards, mu):
 
 
 def safe(record):
-    """The attackers that reach the flag."""
-    game, scenario = record.scenario.addons[0], record.scenario
-    _, attackers = game.players(scenario)
-    caught = {capture.evader for capture in game.outcome(record).captures}
-    x, y = record.pose[-1, :2]
-    return [k for k in attackers if k not in caught and np.hypot(x[k] + 4, y[k]) < REACH]
+    """The attackers that are safe: those at the flag, or who have carried it home."""
+    exits = record.scenario.addons[0].exits_at(record.frame(-1))
+    return [leaving.robot for leaving in exits if leaving.result > 0]
 
 
 def checks(record):
@@ -45,4 +43,6 @@ def checks(record):
         yield Prediction.silent("at the flag", "for guards that are as quick as attackers")
         return
     most = len(attackers) - len(matching(record.pose[0, :2].T, len(guards), slow / quick))
-    yield Prediction("at the flag: N - m", most, len(safe(record)), 0, bound="at most")
+    home = record.scenario.addons[0].home is not None
+    name = "home with the flag: N - m" if home else "at the flag: N - m"
+    yield Prediction(name, most, len(safe(record)), 0, bound="at most")

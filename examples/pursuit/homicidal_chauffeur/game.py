@@ -40,6 +40,11 @@ def scenario(
             scene.line(np.transpose([x + at.real, y + at.imag]), stroke="#7b3294", width=3)
             middle = x - side * RADIUS * sin(theta), y + side * RADIUS * cos(theta)
             scene.circle(middle, RADIUS, stroke="#7b329480")
+        path = np.array([*frame.path, frame.pose])
+        for robot, place in zip(
+            robots, theory.best(path, ratio, RADIUS, 0.02 * SPEED), strict=False
+        ):
+            scene.circle(place, robot.radius, stroke="#7b3294")
 
     rng = np.random.default_rng(seed)
     way, heading = rng.uniform(0, 2 * pi, 2)
@@ -50,9 +55,10 @@ def scenario(
     feet = Holonomic(max_linear_speed=ratio * SPEED, **hold)
     blue = red.replace(name="pedestrian", diameter=PERSON, drive=feet).at(0, 0)
     red = red.replace(controller=load_law(car)).at(5 * cos(way), 5 * sin(way), heading)
+    robots = [red, blue.replace(controller=load_law(pedestrian))]
     game = Game({"car": ["car"], "pedestrian": ["pedestrian"]})
     return Scenario(
-        title="Homicidal chauffeur", robots=[red, blue.replace(controller=load_law(pedestrian))],
+        title="Homicidal chauffeur", robots=robots,
         workspace=[(-12, -12), (12, -12), (12, 12), (-12, 12)], on_exit="ignore",
         sampling_time=0.02, stop_time=40.0,
         addons=[game, Theory(barrier)] if ratio < 1 else [game],

@@ -12,6 +12,25 @@ def least(ratio, radius=2.0):
     return radius * (sqrt(1 - ratio**2) + ratio * asin(ratio) - 1)
 
 
+def best(path, ratio, radius, step):
+    """Where both are at their best (2, 2) [m], once the pedestrian is ratio x radius ahead.
+
+    path: poses (k, 3, 2), the last one now. step: how far the car goes from one to the next [m].
+    Then the pedestrian runs square to the car's heading, and the car turns after it, up to the
+    nearest pass. Empty before, and if the pedestrian was not straight ahead: there is no formula.
+    """
+    sight = (path[:, :2, 1] - path[:, :2, 0]) @ (1, 1j) * np.exp(-1j * path[:, 2, 0])
+    near = np.flatnonzero(np.abs(sight) <= ratio * radius)
+    if not len(near) or abs(sight[near[0]].imag) > 0.05 * radius:
+        return np.empty((0, 2))
+    start, angle = near[0], min((len(path) - 1 - near[0]) * step / radius, asin(ratio))
+    (x, y), heading = path[start, :2, 0], np.exp(1j * path[start, 2, 0])
+    side = 1 if ((path[-1, :2, 1] - path[start, :2, 1]) @ (1, 1j) / heading).imag >= 0 else -1
+    car = radius * (np.sin(angle) + 1j * side * (1 - np.cos(angle)))
+    ways = heading * np.array([car, sight[start] + 1j * side * ratio * radius * angle])
+    return np.transpose([x + ways.real, y + ways.imag])
+
+
 def checks(record):
     car, person = record.scenario.robots
     speed, step = car.drive.max_linear_speed, record.scenario.sampling_time

@@ -183,7 +183,7 @@ class _Reader:
         """Return what the clip path of an element leaves, if it has one."""
         import shapely
 
-        name = _reference(element.get("clip-path", ""))
+        name = element.get("clip-path", "").removeprefix("url(#").removesuffix(")")
         clip = self._named.get(name)
         if clip is None or not drawn or name in self._clipping:
             return drawn
@@ -286,11 +286,6 @@ def _same(before: shapely.Geometry, after: shapely.Geometry) -> list[shapely.Geo
     import shapely
 
     return [p for p in shapely.get_parts(after).tolist() if p.geom_type == before.geom_type]
-
-
-def _reference(text: str) -> str:
-    """Return the id in ``url(#id)``, or nothing."""
-    return text[5:-1] if text.startswith("url(#") else ""
 
 
 def _moved(matrix: Float, element: ET.Element) -> Float:

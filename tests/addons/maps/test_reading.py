@@ -436,11 +436,6 @@ def boxes(mask, cell, x, y):
     return shapely.union_all(shapely.box(left, low, left + cell, low + cell))
 
 
-def test_the_dark_cells_of_a_grid_are_solid_where_the_origin_says(tmp_path):
-    drawing = read(grid(tmp_path, np.where(CELLS, 0, 254)))
-    assert covered(drawing).symmetric_difference(boxes(CELLS, 0.5, 1, 2)).area < 1e-9
-
-
 @each_case("seed", range(20))
 def test_any_grid_is_covered_exactly_and_its_obstacles_have_no_holes(tmp_path, seed):
     rng = np.random.default_rng(seed)
