@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -22,7 +22,7 @@ from mars2d.output.figures.comparison import (
     Drift,
 )
 from mars2d.output.films.footage import Cut
-from mars2d.output.raster.bars import Status, draw_footer, draw_header, footer_height
+from mars2d.output.raster.bars import Status, draw_footer, draw_header
 from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
@@ -30,12 +30,12 @@ from mars2d.output.raster.picture import summary
 from mars2d.output.raster.stage import Stage
 from mars2d.record.frame import Frame
 from mars2d.window.run import keys
-from mars2d.window.run.ending import Ending
+from mars2d.window.run.mouse import Mouse, Pixel
 from mars2d.window.run.player_window import PlayerWindow
 from mars2d.window.run.toolbar import Toolbar
 from mars2d.window.screen.display import Preferences
 from mars2d.window.screen.source import Trio
-from mars2d.window.screen.viewpoint import Viewpoint, wheel_notches
+from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.actions import Action
 from mars2d.window.widgets.plot import Limits, draw_axes, polylines
 from mars2d.world.timeline import Timeline
@@ -128,8 +128,6 @@ class DriftPlot:
             painter.write(surface, title, 13.5 * ui, theme.ink, bold=True, midleft=at)
 
 
-Pixel = tuple[int, int]
-
 HINTS = (("Space", "pause"), ("← →", "step"), ("N", "contact"), ("F1", "help"))
 TITLE_HEIGHT = 74.0
 """The height of the title above an arena, points."""
@@ -161,9 +159,9 @@ class CompareWindow(PlayerWindow):
         super().__init__(trio, speed, size, preferences, title=title, stem=stem, marked=marked)
         self.trio, self.plot = trio, DriftPlot()
         self._stages = {mode: Stage(self.looks.painter) for mode in MODES}
-        self._ending = Ending(self.player)
-        self._dragged: Callable[[Pixel], None] | None = None
         self.viewpoint = Viewpoint(trio.scenario, self._arrange(self.looks.layout(size)))
+        handles = [*self._controls.handles, (self.plot.hit, self._scrub)]
+        self.mouse = Mouse(self.viewpoint, handles, self._place)
         self.toolbar = Toolbar(self._actions, self._is_on, live=True)
 
     def _calls(self) -> object:
@@ -189,13 +187,11 @@ class CompareWindow(PlayerWindow):
 
     def draw(self, surface: pygame.Surface, *, notes: bool = True) -> None:
         """Draw the window on a surface; the layout follows its size."""
-        painter, banner = self.looks.painter, self._ending.banner()
-        size, frame, pointer = surface.get_size(), self.player.frame, self._pointer
-        foot = footer_height(banner, size, painter, self.looks.text, self.looks.scale)
-        layout = self.looks.layout(size, foot, controls=True)
+        painter, frame, pointer = self.looks.painter, self.player.frame, self._pointer
+        layout = self._layout(surface.get_size())
         self._draw_runs(surface, layout, frame.time, Status(*self.player.status()))
-        self._controls.draw(surface, layout, painter, pointer, lambda drag: self._dragged == drag)
-        draw_footer(surface, layout, painter, banner, summary(frame), HINTS)
+        self._controls.draw(surface, layout, painter, pointer, self.mouse.drags)
+        draw_footer(surface, layout, painter, self._ending.banner(), summary(frame), HINTS)
         self.toolbar.draw(surface, layout, painter, pointer)
         if notes:
             self.notes.draw(surface, layout.plot, painter, time.monotonic())
@@ -285,34 +281,13 @@ class CompareWindow(PlayerWindow):
     def _take(self, event: pygame.Event) -> bool:
         return self.toolbar.handle(event)
 
-    def _point(self, event: pygame.Event) -> None:
-        """Handle the mouse on the arenas, the plot and the bars."""
-        if event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
-            on_arena = lambda pixel: self._arena_at(pixel) is not None  # noqa: E731
-            handles = [*self._controls.handles, (self.plot.hit, self._scrub), (on_arena, self._pan)]
-            self._dragged = next((drag for hit, drag in handles if hit(event.pos)), None)
-            if self._dragged is not None and self._dragged != self._pan:
-                self._dragged(event.pos)
-        elif event.type == pygame.MOUSEBUTTONUP:
-            self._dragged = None
-        elif event.type == pygame.MOUSEMOTION and self._dragged == self._pan:
-            self.viewpoint.pan(*event.rel)
-        elif event.type == pygame.MOUSEMOTION and self._dragged is not None:
-            self._dragged(event.pos)
-        elif event.type == pygame.MOUSEWHEEL:
-            x, y = pygame.mouse.get_pos()
-            arena = self._arena_at((x, y))
-            if arena is not None:
-                shift = arena.left - self.plots[MODES[0]].left
-                self.viewpoint.zoom(wheel_notches(event), (x - shift, y))
-
-    def _arena_at(self, pixel: Pixel) -> pygame.Rect | None:
+    def _place(self, pixel: Pixel) -> Pixel | None:
+        """Return where the first arena shows what one of them shows at a pixel."""
         if self.help.is_open or self.toolbar.covers(pixel):
             return None
-        return next((plot for plot in self.plots.values() if plot.collidepoint(pixel)), None)
-
-    def _pan(self, pixel: Pixel) -> None:
-        """Move the pictures; `_point` does it by how far the mouse has moved."""
+        left = self.plots[MODES[0]].left
+        found = (plot for plot in self.plots.values() if plot.collidepoint(pixel))
+        return next(((pixel[0] - plot.left + left, pixel[1]) for plot in found), None)
 
     def _scrub(self, pixel: Pixel) -> None:
         """Go to the time at a pixel of the plot."""

@@ -19,6 +19,7 @@ from mars2d.scenario.experiment import open_experiment
 from mars2d.sensors import Imu, RangeFinder
 from mars2d.window.panels.scopes import Scopes
 from mars2d.window.panels.trace import Trace
+from mars2d.window.screen.picking import Selection
 from mars2d.window.widgets.plot import Limits, as_number, draw_quartiles
 from mars2d.world.timeline import Timeline
 from tests.cases import each_case
@@ -105,6 +106,7 @@ class Scoped:
         self.scopes = Scopes(
             painter(layout, theme),
             SimpleNamespace(source=timeline, frame=timeline.frame, go=self.gone.append),
+            Selection(),
             clock=lambda: 0.0,
         )
         self.surface = Written(size)

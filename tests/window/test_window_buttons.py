@@ -333,7 +333,7 @@ def test_the_lesson_of_a_file_is_shown_by_a_button_and_by_f4(open_window):
     window = open_window(0, experiment="push_box")
     push(window, "lesson")
     window.until(lambda s: "lesson" in s["panels"])
-    parts = dict(window.shown._lesson.parts)
+    parts = dict(window.shown.dock.lesson.parts)
     assert parts[""].startswith("Push a box: it moves when")
     assert parts["Question"].startswith("A robot of mass M drives")
     assert list(parts) == ["", "Question", "Prediction", "Measured"]

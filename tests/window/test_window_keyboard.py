@@ -16,7 +16,7 @@ def test_a_menu_opens_on_what_is_selected_or_on_the_floor(open_window, room):
 def test_sliders_are_reached_and_set_by_keys(open_window, pushing):
     window = open_window(0, experiment=str(pushing))
     window.press("Tab", "Tab", "Tab", "shift+F2")
-    panel = window.shown.parameters
+    panel = window.shown.dock.parameters
     assert panel.is_open
     window.settle()
     assert panel.focus.startswith("props.crate.")
@@ -38,7 +38,7 @@ def test_panels_are_scrolled_by_keys(open_window, tmp_path):
     )
     window = open_window(0, experiment=str(path))
     window.press("F4")
-    lesson = window.shown._lesson
+    lesson = window.shown.dock.lesson
     window.settle()
     assert lesson.cut
     window.press("shift+Next", "shift+Next")

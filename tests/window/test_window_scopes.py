@@ -103,6 +103,6 @@ def test_keys_show_less_time_and_more_in_the_plots(open_window, pushing):
     choose(window, "x")
     window.until(lambda s: "x" in s["areas"])
     window.press("Escape", "comma", "comma")
-    assert window.shown.scopes.span == pytest.approx(10 / 1.25**2)
+    assert window.shown.dock.scopes.span == pytest.approx(10 / 1.25**2)
     window.press("period", "period", "period")
-    assert window.shown.scopes.span is None
+    assert window.shown.dock.scopes.span is None

@@ -25,7 +25,7 @@ def window(monkeypatch):
         source.advance()
     window = Window(source)
     window.player.settle()
-    window._painter.fonts = Pens()
+    window.looks.painter.fonts = Pens()
     pygame.display.init()
     yield window
     pygame.display.quit()
@@ -71,7 +71,7 @@ def plates(monkeypatch):
 def test_no_panel_covers_a_legend(window, plates):
     do(window, "forces", "select")
     window.dock.open(["parameters", "scopes"])
-    window.scopes.switch("speed", (0, 1))
+    window.dock.scopes.switch("speed", (0, 1))
     for size, text in [((1024, 768), 1.7), (SMALL, 1.0), (LARGE, 1.0)]:
         plates.clear()
         words(window, size, text)
@@ -87,7 +87,7 @@ def test_the_inspector_leaves_the_arena_to_one_who_drives(window):
         for size, text in ((SMALL, 1.7), (LARGE, 1.0), ((470, 470), 1.0)):
             words(window, size, text)
             shown[drives, size] = place = window.dock.plates.get("inspector")
-            arena = window._seen_arena(window.player.frame)
+            arena = window.viewpoint.seen
             assert not (drives and place and place.colliderect(arena))
         do(window, "drive")
     assert shown[False, (470, 470)]
@@ -149,7 +149,7 @@ def test_legends_lie_beside_the_workspace_where_there_is_room(window, plates):
         for _ in range(2):
             plates.clear()
             words(window, (1920, 1080))
-        arena = window._seen_arena(window.player.frame)
+        arena = window.viewpoint.seen
         assert plates
         assert arena.collidelist(plates) == -1, selects
         do(window, "select")

@@ -115,6 +115,11 @@ GROUPS: Mapping[str, Sequence[Action]] = {"Time": TIME, "See": SEE, "Do": DO, "M
 _BY_NAME = {action.name: action for action in ACTIONS}
 
 
+def key_of(name: str) -> str:
+    """Return the label of an action's key; "" without one."""
+    return _BY_NAME[name].labels[0] if name in _BY_NAME else ""
+
+
 def bound(
     names: Iterable[str], acts: Mapping[str, Callable[[], None]], on: Callable[[str], bool]
 ) -> list[Action]:
