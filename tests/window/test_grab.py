@@ -19,6 +19,8 @@ from mars2d.window.run.grab import Grab
 from tests.cases import each_case
 
 LEFT, RIGHT = pygame.BUTTON_LEFT, pygame.BUTTON_RIGHT
+pytestmark = pytest.mark.usefixtures("keyboard")
+
 CAMERA = Camera(100.0, 300.0, 200.0)
 
 SCENARIO = Scenario(
