@@ -153,3 +153,19 @@ def test_legends_lie_beside_the_workspace_where_there_is_room(window, plates):
         assert plates
         assert arena.collidelist(plates) == -1, selects
         do(window, "select")
+
+
+@each_case("text", [1.0, 1.3, 2.2])
+def test_where_there_is_no_room_beside_it_legends_lie_where_no_body_is(plates, text, display):
+    source = Timeline(open_experiment("push_box"))
+    for _ in range(20):
+        source.advance()
+    window = Window(source)
+    window.player.settle()
+    do(window, "select", "predictions")
+    window.dock.scopes.switch("speed", (0, 1))
+    plates.clear()
+    words(window, text=text)
+    bodies = window.camera.to_pixels(window.player.frame.all_poses[:2].T)
+    assert bool(plates) == (text < 2)
+    assert not any(plate.collidepoint(middle) for plate in plates for middle in bodies)

@@ -12,10 +12,15 @@ from mars2d.output.layers.legend import Legend
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
 
+Placed = list[tuple[list[Sign], pygame.Rect]]
+"""Legends, each with its plate."""
+
 LEAST = 300.0
 """The least width and height of a picture with a legend, points."""
 MAX_SHARE = 0.25
 """The largest share of the picture's height for legends; those beyond are left out."""
+NEAR = 50.0
+"""How much larger a plate is than what hides no middle of a body, points."""
 
 GAP, PAD, ROW_HEIGHT, TEXT_SIZE = 8.0, 10.0, 24.0, 13.0
 """The room around a plate and within it, the heights of a row and of text, points."""
@@ -28,25 +33,54 @@ def draw_legends(
     plot: pygame.Rect,
     legends: Sequence[Legend],
     beside: Sequence[pygame.Rect] = (),
-) -> None:
-    """Draw legends side by side, in rows from the bottom up, if the picture has room for them.
+    bodies: Sequence[Sequence[float]] = (),
+    corner: int = 0,
+) -> int:
+    """Draw legends side by side, in rows from an edge, if the picture has room for them.
 
-    beside: where they hide nothing; they lie in the first of these that has room for all.
+    beside: where they hide nothing; they lie in the first of these that has room for all. Else they
+    lie in a corner, side by side or one above the other: where they lay last, or if they hide
+    bodies there, where they hide the fewest. bodies: their middles, pixels. Return where they lie,
+    0 to 7.
     """
     if min(plot.size) < LEAST * painter.ui:
-        return
+        return corner
     choices = [_placed(painter, camera, room, room.height, legends) for room in beside]
-    choices.append(_placed(painter, camera, plot, MAX_SHARE * plot.height, legends))
-    for signs, plate in max(choices, key=len):
+    inside = _placed(painter, camera, plot, MAX_SHARE * plot.height, legends)
+    best = max([*choices, inside], key=len)
+    if best is inside and inside:
+        column = plot.copy()
+        column.width = max(plate.width for _, plate in inside) + round(GAP * painter.ui)
+        stacked = _placed(painter, camera, column, plot.height / 2, legends)
+        ways = [inside, stacked] if len(stacked) == len(inside) else [inside]
+        corners = [_mirrored(way, plot, k) for way in ways for k in range(4)]
+        corner %= len(corners)
+        near = round(NEAR * painter.ui)
+        rooms = [[plate.inflate(near, near) for _, plate in each] for each in corners]
+        counts = [sum(rect.collidepoint(p) for rect in each for p in bodies) for each in rooms]
+        corner = corner if not counts[corner] else counts.index(min(counts))
+        best = corners[corner]
+    for signs, plate in best:
         _drawn(surface, painter, signs, plate)
+    return corner
+
+
+def _mirrored(placed: Placed, plot: pygame.Rect, corner: int) -> Placed:
+    """Return what is placed at the lower left in another corner: 1 and 3 at the right, 2 above."""
+    found = []
+    for signs, plate in placed:
+        across, up = plot.left + plot.right - plate.right, plot.top + plot.bottom - plate.bottom
+        left, top = across if corner & 1 else plate.left, up if corner & 2 else plate.top
+        found.append((signs, pygame.Rect((left, top), plate.size)))
+    return found
 
 
 def _placed(
     painter: Painter, camera: Camera, room: pygame.Rect, high: float, legends: Sequence[Legend]
-) -> list[tuple[list[Sign], pygame.Rect]]:
+) -> Placed:
     """Return the legends for which a room has place up to a height, with their plates."""
     ui, gap = painter.ui, round(GAP * painter.ui)
-    corner, top, placed = room.bottomleft, room.bottom, []
+    corner, top, placed = room.bottomleft, room.bottom, Placed()
     for legend in legends:
         ruler = [legend.ruler.sign(ui / camera.scale)] if legend.ruler else []
         signs = [*ruler, *legend.signs]

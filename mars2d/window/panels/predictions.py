@@ -22,7 +22,7 @@ OFTEN = 0.2
 SHARE = 0.04
 """The largest share of the time that `checks` may take."""
 
-TITLES, ENDS = ("predicted", "measured", "tolerance"), (1 / 3, 2 / 3, 1.0)
+TITLES, ENDS = ("predicted", "measured", "tolerance"), (0.28, 0.58, 1.0)
 """The columns, and where they end, in parts of the width."""
 NAME, LINE, GAP = 18.0, 17.0, 6.0
 """The heights of a name, of a line of words and of the gap below, points."""
@@ -122,7 +122,7 @@ class Predictions(RowsPanel):
         head = self.line(NAME, name, [Word(said, color, 12, bold=True)])
         if p.reason:
             return [head, self.line(LINE, [Word(p.reason, theme.muted, 12)]), self.line(GAP)]
-        room = (width / 3 - 8) * self.painter.ui
+        room = (ENDS[0] * width - 4) * self.painter.ui
         measured = p.measured if math.isfinite(p.measured) else None
         shown = [self._fitted(value, p.tolerance, room) for value in (p.predicted, measured)]
         numbers = (SIGNS[p.bound] + shown[0], shown[1], cells(p)[-1])
