@@ -6,6 +6,8 @@ import time
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from itertools import combinations
+from math import dist, inf
 
 import numpy as np
 import pygame
@@ -29,6 +31,7 @@ from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.picture import summary
 from mars2d.output.raster.stage import Stage
 from mars2d.record.frame import Frame
+from mars2d.scenario.scenario import Scenario
 from mars2d.window.run import keys
 from mars2d.window.run.mouse import Mouse, Pixel
 from mars2d.window.run.player_window import PlayerWindow
@@ -44,6 +47,8 @@ LEFT, RIGHT, HEAD, FOOT = 72.0, 24.0, 34.0, 26.0
 """The room round the axes, points."""
 MIN_TIME = 2.0
 """The shortest time axis, seconds."""
+SIZE, SIGN = 13.0, 48.0
+"""The height of letters above it, and the room for the sign of a curve, points."""
 TITLE = "Distance from where contact puts a body"
 
 
@@ -82,53 +87,57 @@ class DriftPlot:
         drifts: Mapping[str, Drift],
         now: float,
         end: float,
+        largest: float,
     ) -> None:
         """Draw the plot within a rectangle.
 
         drifts: by the physics. now, end: the time that is shown, and that of the last row, seconds.
+        largest: the scale of the words above it, if they have room.
         """
-        ui, theme = painter.ui, painter.theme
+        ui, theme, fonts, scene = painter.ui, painter.theme, painter.fonts, Scene()
         surface.fill(theme.paper, rect)
         surface.fill(theme.edge, (rect.left, rect.top, rect.width, 1))
-        self.area = area = pygame.Rect(
-            rect.left + round(LEFT * ui), rect.top + round(HEAD * ui),
-            rect.width - round((LEFT + RIGHT) * ui), rect.height - round((HEAD + FOOT) * ui),
-        )  # fmt: skip
+        farthest = max(float(drift.max.max(initial=0.0)) for drift in drifts.values())
+        agree, self._end = farthest < NO_DRIFT, max(end, MIN_TIME)
+        limits = Limits(0.0, self._end, 0.0, 1.0 if agree else 1.06 * farthest)
+        words, above = dict[tuple[str, str], str](), drifts[next(iter(drifts))]
+        for mode, drift in drifts.items():
+            for name, *_ in CURVES:
+                hidden = drift is not above and _alike(drift, above, name, HIDDEN * limits.high)
+                words[mode, name] = f"{mode}, {name}{': the same' * hidden}"
+        need = sum(fonts.width(word, SIZE) + SIGN for word in words.values())
+        wide = rect.width - round((LEFT + RIGHT) * ui)
+        large = max(ui, min(largest, wide / need))
+        left, top = rect.left + round(LEFT * ui), rect.top + round(HEAD * large)
+        self.area = area = pygame.Rect(left, top, wide, rect.bottom - top - round(FOOT * ui))
         if area.width <= 0 or area.height <= 0:
             return
-        self._end = max(end, MIN_TIME)
-        largest = max(float(drift.max.max(initial=0.0)) for drift in drifts.values())
-        agree = largest < NO_DRIFT
-        limits = Limits(0.0, self._end, 0.0, 1.0 if agree else 1.06 * largest)
         draw_axes(surface, area, painter, limits, "m")
-        middle, right, scene = rect.top + round(HEAD / 2 * ui), area.right, Scene()
+        right, middle = area.right, (rect.top + area.top) // 2
         for mode, drift in reversed(list(drifts.items())):
             for name, dash, width in reversed(CURVES):
                 look = {"stroke": COLORS[mode], "width": width, "style": dash}
                 for points in polylines(area, limits, drift.time, getattr(drift, name)):
                     scene.line(points * (1, -1), **look)
-                word, size = f"{mode}, {name}", 12.5 * ui
-                above = drifts[next(iter(drifts))]
-                if drift is not above and _alike(drift, above, name, HIDDEN * limits.high):
-                    word = f"{word}: the same"
-                left = right - painter.fonts.width(word, size) - round(30 * ui)
-                if left > area.left:
-                    painter.write(surface, word, size, theme.text, midright=(right, middle))
-                    scene.line([(left, -middle), (left + 24 * ui, -middle)], **look)
-                    right = left - round(14 * ui)
+                at, size = (right, middle), SIZE * large
+                place = painter.write(surface, words[mode, name], size, theme.text, midright=at)
+                left = place.left - round(30 * large)
+                scene.line([(left, -middle), (left + 24 * large, -middle)], **look)
+                right = left - round(14 * large)
         x = float(limits.pixels(area, np.array([now]), np.zeros(1))[0, 0])
         scene.line([(x, -area.top), (x, -area.bottom)], stroke=theme.selected, width=1.2)
         painter.paint(surface, scene.shapes, PIXELS)
         if agree:
             at = area.center
             painter.write(surface, "the three runs agree", 13 * ui, theme.muted, center=at)
-        title = painter.fonts.shorten(TITLE, 13.5 * ui, right - area.left, bold=True)
-        if len(title) > len(TITLE) // 2:
+        if fonts.width(TITLE, SIZE * large, bold=True) < right - area.left:
             at = area.left, middle
-            painter.write(surface, title, 13.5 * ui, theme.ink, bold=True, midleft=at)
+            painter.write(surface, TITLE, SIZE * large, theme.ink, bold=True, midleft=at)
 
 
 HINTS = (("Space", "pause"), ("← →", "step"), ("N", "contact"), ("F1", "help"))
+NAME = 60.0
+"""How far bodies are apart at the start where their names are drawn at first, points."""
 TITLE_HEIGHT = 74.0
 """The height of the title above an arena, points."""
 WIDE, TALL, SMALLEST = 290.0, 390.0, 0.75
@@ -160,6 +169,8 @@ class CompareWindow(PlayerWindow):
         self.trio, self.plot = trio, DriftPlot()
         self._stages = {mode: Stage(self.looks.painter) for mode in MODES}
         self.viewpoint = Viewpoint(trio.scenario, self._arrange(self.looks.layout(size)))
+        fits = self.viewpoint.camera.scale * _apart(trio.scenario) > NAME * self._ui
+        self.layers = self.layers.switched(names=self.layers.names and fits)
         handles = [*self._controls.handles, (self.plot.hit, self._scrub)]
         self.mouse = Mouse(self.viewpoint, handles, self._place)
         self.toolbar = Toolbar(self._actions, self._is_on, live=True)
@@ -238,7 +249,7 @@ class CompareWindow(PlayerWindow):
             if plot is not first:
                 surface.fill(theme.edge, (plot.left, layout.plot.top, 1, plot.bottom))
         end = trio.scenario.sampling_time * trio.newest
-        self.plot.draw(surface, self._plot_place, painter, trio.drifts, moment, end)
+        self.plot.draw(surface, self._plot_place, painter, trio.drifts, moment, end, layout.ui)
         painter.ui = layout.ui
         latest = max(frames.values(), key=lambda frame: frame.time)
         draw_header(surface, layout, painter, latest, status)
@@ -311,3 +322,9 @@ class CompareWindow(PlayerWindow):
         time, status = self.player.frame.time, Status(*self.player.status())
         self._draw_runs(surface, self.looks.layout(size, 0.0), time, status)
         self.saver.picture(surface)
+
+
+def _apart(scenario: Scenario) -> float:
+    """Return the least distance of two bodies at the start, metres."""
+    places = [body.pose[:2] for body in scenario.bodies]
+    return min((dist(*pair) for pair in combinations(places, 2)), default=inf)

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import pygame
-
-from mars2d.output.controls import CONTROLS
 
 CONTROL = pygame.KMOD_CTRL | pygame.KMOD_META
 MODIFIERS = frozenset(
@@ -78,20 +76,3 @@ def action_of(event: pygame.Event, actions: Iterable[Action]) -> Action | None:
     by_label = {label: action for action in actions for label in (*action.labels, *action.also)}
     label: str = label_of(event)
     return by_label.get(label) or by_label.get(label.replace("Shift ", ""))
-
-
-def of_controls(
-    names: Iterable[str], acts: Mapping[str, Callable[[], object]], *, keys: bool = True
-) -> list[Action]:
-    """Return actions with the titles and icons of `CONTROLS`; keys: with their keys, too."""
-    controls = ((name, CONTROLS[name]) for name in names)
-    return [
-        Action(
-            name,
-            labels=(found.key,) if keys and found.key else (),
-            act=acts[name],
-            title=found.title,
-            icon=found.icon,
-        )
-        for name, found in controls
-    ]
