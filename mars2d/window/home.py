@@ -26,7 +26,7 @@ HEADER, FOOTER = 58.0, 44.0
 """The heights of the bars, points."""
 OPENS = {".py": "run", ".toml": "run", ".npz": "replay", ".mcap": "replay"}
 """The command that opens a file, by its suffix."""
-HINT = "Type to search"
+HINT = "Type to search, F1: all keys"
 
 
 class Home:
@@ -58,7 +58,7 @@ class Home:
             "escape": self._escape,
             "leave": self._leave,
         }
-        buttons = bound(("dark", "text", "help"), self._actions, self.looks.is_on, HOME)
+        buttons = bound(("dark", "text"), self._actions, self.looks.is_on, HOME)
         self._buttons = Buttons([buttons])
         self._open = True
         if note:
@@ -138,7 +138,7 @@ class Home:
         painter.write(surface, "MARS2D", 22 * ui, theme.ink, bold=True, midleft=at)
         here = pygame.display.get_init() and pygame.mouse.get_focused()
         pointer = pygame.mouse.get_pos() if here else None
-        buttons = pygame.Rect(0, 0, round(140 * ui), round(44 * ui))
+        buttons = pygame.Rect(0, 0, round(96 * ui), round(44 * ui))
         buttons.midright = size[0] - round(0.5 * pad), header.centery
         self._buttons.draw(surface, buttons, painter, pointer)
         self._draw_search(surface, header, buttons.left - pad // 2)

@@ -40,7 +40,6 @@ from mars2d.window.panels.readout import (
     dynamics_of,
     force_of,
     inbox,
-    rounded,
     state_of,
 )
 from mars2d.window.panels.sensorplot import rows_of
@@ -254,9 +253,3 @@ def test_all_sensors_can_be_reached_by_the_wheel(world):
         seen |= set(surface.texts)
         inspector.handle(pygame.Event(pygame.MOUSEWHEEL, y=-1, precise_y=-1.0))
     assert {sensor.key for sensor in world.scenario.robots[0].sensors} <= seen
-
-
-def test_numbers_in_messages_are_rounded_and_words_are_not():
-    assert rounded('["token",1]') == '["token",1]'
-    assert rounded("[0.1558127275076811,-0.0683]") == "[0.156,-0.0683]"
-    assert rounded('"version 1.2.345 of a.1234"') == '"version 1.2.345 of a.1234"'
