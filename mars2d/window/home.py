@@ -26,7 +26,7 @@ HEADER, FOOTER = 58.0, 44.0
 """The heights of the bars, points."""
 OPENS = {".py": "run", ".toml": "run", ".npz": "replay", ".mcap": "replay"}
 """The command that opens a file, by its suffix."""
-HINT = "Type to search, F1: all keys"
+HINT, MORE = "Type to search", ", F1: all keys"
 
 
 class Home:
@@ -161,7 +161,8 @@ class Home:
             words = "nothing like that"
             end = self.painter.write(surface, words, 13 * ui, theme.muted, midright=inner.midright)
             inner.width -= end.width
-        self.search.draw(surface, inner, self.painter, 15 * ui, hint=HINT)
+        fits = self.painter.fonts.width(HINT + MORE, 15 * ui) < inner.width
+        self.search.draw(surface, inner, self.painter, 15 * ui, hint=HINT + MORE * fits)
 
     def _draw_line(self, surface: pygame.Surface, footer: pygame.Rect, pad: int) -> None:
         """Say more about the chosen card, and the command that opens it."""
