@@ -1,5 +1,7 @@
 """The words of a window: the keys that serve now, what is said of a change, none over another."""
 
+from functools import partial
+
 import pygame
 import pytest
 
@@ -169,3 +171,16 @@ def test_where_there_is_no_room_beside_it_legends_lie_where_no_body_is(plates, t
     bodies = window.camera.to_pixels(window.player.frame.all_poses[:2].T)
     assert bool(plates) == (text < 2)
     assert not any(plate.collidepoint(middle) for plate in plates for middle in bodies)
+
+
+def test_panels_that_stood_beside_the_arena_stay_there_when_one_of_them_has_more_to_say(display):
+    window = Window(Timeline(open_experiment("tug_of_war")))
+    plot, everybody = window.dock.scopes.switch, range(5)
+    for opens in (
+        partial(window.dock.open, ["lesson"]), window.dock.impact.open,
+        partial(plot, "speed", (*everybody,)), partial(plot, "x", (*everybody,)),
+        partial(do, window, "select"),
+    ):  # fmt: skip
+        opens()
+        words(window, (1152, 648))
+        assert window.viewpoint.seen.collidelist([*window.dock.plates.values()]) == -1

@@ -83,7 +83,7 @@ class Inspector(RowsPanel):
         """Return the least and the wanted height at a width, points."""
         return LEAST, max(super().heights(frame, width)[1], LEAST)
 
-    def rows(self, frame: Frame, width: float) -> Sequence[Row]:  # noqa: ARG002
+    def rows(self, frame: Frame, width: float) -> Sequence[Row]:
         """Return the sections as they were last read, or as they are now."""
         body = self.selection.body
         if body is None:
@@ -91,14 +91,14 @@ class Inspector(RowsPanel):
         of = body, touching(frame, body), frame.scenario, self.painter.ui, self.painter.theme
         late = frame is not self._frame and self._clock() - self._read_at >= DRAW_INTERVAL
         if of != self._of or late:
-            self._sections = list(self._made(frame, body))
+            self._sections = list(self._made(frame, body, width))
             self.scroll = self.scroll if of[:1] == self._of[:1] else 0.0
             self._of, self._frame, self._read_at = of, frame, self._clock()
         return self._sections
 
     # -- sections -----------------------------------------------------------------------------
 
-    def _made(self, frame: Frame, body: int) -> Iterator[Row]:
+    def _made(self, frame: Frame, body: int, width: float) -> Iterator[Row]:
         """Yield all sections."""
         robots, theme = frame.scenario.robots, self.painter.theme
         colors = (*frame.scenario.colors, *prop_colors(frame.scenario.props))
@@ -106,11 +106,12 @@ class Inspector(RowsPanel):
         name = Word(str(frame.scenario.bodies[body].name), theme.ink, 17, bold=True)
         kind = Word(kind_of(frame, body), theme.muted)
         head = self.line(HEAD, [dot, name], [kind, Word("", theme.ink, CLOSE)])
-        yield self.stack(head, *map(self._numbers, state_of(frame, body)), self.line(GAP))
+        numbers = partial(self._numbers, width)
+        yield self.stack(head, *map(numbers, state_of(frame, body)), self.line(GAP))
         if frame.scenario.physics == "contact":
             touched = " · ".join(contacts_of(frame, body)) or "none"
-            numbers = [*force_of(frame, body), *dynamics_of(frame, body)]
-            yield self._headed("contacts", touched, *map(self._numbers, numbers))
+            rows = [*force_of(frame, body), *dynamics_of(frame, body)]
+            yield self._headed("contacts", touched, *map(numbers, rows))
         for sensor, reading in readings_of(frame, body):
             kind_of_it, key = snake_case(type(sensor).__name__), sensor.key
             drawn = rows_of(self, frame, body, sensor, reading)
@@ -124,10 +125,12 @@ class Inspector(RowsPanel):
             words = (self.line(LINE, [Word(each, theme.text)]) for each in heard)
             yield self._headed("inbox", "" if heard[0] else "nothing yet", *words)
 
-    def _numbers(self, row: tuple[str, Sequence[tuple[str, str]]]) -> Row:
-        """Return a label and up to three numbers in columns."""
-        (what, numbers), theme = row, self.painter.theme
-        size = 12.5 if len(numbers) < 3 else 10.5
+    def _numbers(self, width: float, row: tuple[str, Sequence[tuple[str, str]]]) -> Row:
+        """Return a label and up to three numbers in columns, as large as there is room."""
+        (what, numbers), theme, ui = row, self.painter.theme, self.painter.ui
+        room = (1 - LABEL) * width / len(numbers) - 14
+        widest = max(self.painter.fonts.width(f"{a}{b}", 12.5 * ui) / ui for a, b in numbers)
+        size = 12.5 * min(1.0, room / widest)
         ends = [
             (
                 LABEL + (1 - LABEL) * k / len(numbers),
@@ -135,7 +138,7 @@ class Inspector(RowsPanel):
             )
             for k, (name, value) in enumerate(numbers, 1)
         ]
-        return self.line(ROW, [Word(what, theme.muted)], ends=ends)
+        return self.line(ROW, [Word(what, theme.muted, size)], ends=ends)
 
     def _headed(self, title: str, more: str, *rows: Row) -> Row:
         """Return a section with a line above it, its title and more at the right."""

@@ -97,7 +97,7 @@ class Panels(Dock):
 
     def _to_sliders(self) -> None:
         """Let keys go to the sliders of parameters, which are shown."""
-        if not self.parameters.is_open:
+        if not self.parameters.is_open or "parameters" in self._folded:
             self._open_or_not("parameters")
         self.parameters.focus_on(None)
 

@@ -252,9 +252,8 @@ class Window(PlayerWindow):
         self.help.draw(surface, layout, painter, keys.GROUPS.items())
 
     def _draw_notes(self, surface: pygame.Surface) -> None:
-        off = self._selected_pixel(self.player.frame)
-        plot, painter = self.layout.plot, self.looks.painter
-        self.notes.draw(surface, plot, painter, time.monotonic(), off)
+        off, room = self._selected_pixel(self.player.frame), self.viewpoint.room
+        self.notes.draw(surface, room, self.looks.painter, time.monotonic(), off)
 
     def _draw_dock(self, surface: pygame.Surface, frame: Frame) -> None:
         """Draw the panels, away from the selected body where the arena makes no room for them."""
@@ -327,8 +326,8 @@ class Window(PlayerWindow):
             return True
         if not self.help.is_open and self.dock.handle(event):
             return True
-        types = event.type in TYPING and not self.director.drives
-        return types and self.dock.parameters.press(event)
+        elsewhere = self.help.is_open or self.director.drives
+        return event.type in TYPING and not elsewhere and self.dock.parameters.press(event)
 
     def _point(self, event: pygame.Event) -> None:
         if event.type == pygame.MOUSEBUTTONDOWN:
