@@ -6,8 +6,6 @@ import time
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from itertools import combinations
-from math import dist, inf
 
 import numpy as np
 import pygame
@@ -31,7 +29,6 @@ from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.picture import summary
 from mars2d.output.raster.stage import Stage
 from mars2d.record.frame import Frame
-from mars2d.scenario.scenario import Scenario
 from mars2d.window.run import keys
 from mars2d.window.run.mouse import Mouse, Pixel
 from mars2d.window.run.player_window import PlayerWindow
@@ -136,8 +133,6 @@ class DriftPlot:
 
 
 HINTS = (("Space", "pause"), ("← →", "step"), ("N", "contact"), ("F1", "help"))
-NAME = 60.0
-"""How far bodies are apart at the start where their names are drawn at first, points."""
 TITLE_HEIGHT = 74.0
 """The height of the title above an arena, points."""
 WIDE, TALL, SMALLEST = 290.0, 390.0, 0.75
@@ -169,8 +164,7 @@ class CompareWindow(PlayerWindow):
         self.trio, self.plot = trio, DriftPlot()
         self._stages = {mode: Stage(self.looks.painter) for mode in MODES}
         self.viewpoint = Viewpoint(trio.scenario, self._arrange(self.looks.layout(size)))
-        fits = self.viewpoint.camera.scale * _apart(trio.scenario) > NAME * self._ui
-        self.layers = self.layers.switched(names=self.layers.names and fits)
+        self._leave_out_names(self._ui)
         handles = [*self._controls.handles, (self.plot.hit, self._scrub)]
         self.mouse = Mouse(self.viewpoint, handles, self._place)
         self.toolbar = Toolbar(self._actions, self._is_on, live=True)
@@ -322,9 +316,3 @@ class CompareWindow(PlayerWindow):
         time, status = self.player.frame.time, Status(*self.player.status())
         self._draw_runs(surface, self.looks.layout(size, 0.0), time, status)
         self.saver.picture(surface)
-
-
-def _apart(scenario: Scenario) -> float:
-    """Return the least distance of two bodies at the start, metres."""
-    places = [body.pose[:2] for body in scenario.bodies]
-    return min((dist(*pair) for pair in combinations(places, 2)), default=inf)

@@ -36,8 +36,10 @@ GAP = 9.0
 """The gap between two sections, points."""
 HEAD, TITLE, ROW, LINE = 36.0, 21.0, 19.0, 17.0
 """The heights of the name, a section's title, a row of numbers and a line of text, points."""
-CLOSE = 20.0
-"""The room for the button that closes it, points."""
+CLOSE = 5 * " "
+"""The room for the button that closes it."""
+SIZE = 12.5
+"""The height of letters where they have room, points."""
 LABEL = 0.22
 """The room for the label of a row, in parts of the width."""
 
@@ -83,7 +85,7 @@ class Inspector(RowsPanel):
         """Return the least and the wanted height at a width, points."""
         return LEAST, max(super().heights(frame, width)[1], LEAST)
 
-    def rows(self, frame: Frame, width: float) -> Sequence[Row]:
+    def rows(self, frame: Frame, width: float) -> Sequence[Row]:  # noqa: ARG002
         """Return the sections as they were last read, or as they are now."""
         body = self.selection.body
         if body is None:
@@ -91,27 +93,26 @@ class Inspector(RowsPanel):
         of = body, touching(frame, body), frame.scenario, self.painter.ui, self.painter.theme
         late = frame is not self._frame and self._clock() - self._read_at >= DRAW_INTERVAL
         if of != self._of or late:
-            self._sections = list(self._made(frame, body, width))
+            self._sections = list(self._made(frame, body))
             self.scroll = self.scroll if of[:1] == self._of[:1] else 0.0
             self._of, self._frame, self._read_at = of, frame, self._clock()
         return self._sections
 
     # -- sections -----------------------------------------------------------------------------
 
-    def _made(self, frame: Frame, body: int, width: float) -> Iterator[Row]:
+    def _made(self, frame: Frame, body: int) -> Iterator[Row]:
         """Yield all sections."""
         robots, theme = frame.scenario.robots, self.painter.theme
         colors = (*frame.scenario.colors, *prop_colors(frame.scenario.props))
         dot = Word(DOT, theme.shade(colors[body]), 17)
         name = Word(str(frame.scenario.bodies[body].name), theme.ink, 17, bold=True)
-        kind = Word(kind_of(frame, body), theme.muted)
-        head = self.line(HEAD, [dot, name], [kind, Word("", theme.ink, CLOSE)])
-        numbers = partial(self._numbers, width)
-        yield self.stack(head, *map(numbers, state_of(frame, body)), self.line(GAP))
+        kind = Word(f"{kind_of(frame, body)}{CLOSE}", theme.muted)
+        head = self.line(HEAD, [dot, name], [kind])
+        yield self.stack(head, *map(self._numbers, state_of(frame, body)), self.line(GAP))
         if frame.scenario.physics == "contact":
             touched = " · ".join(contacts_of(frame, body)) or "none"
-            rows = [*force_of(frame, body), *dynamics_of(frame, body)]
-            yield self._headed("contacts", touched, *map(numbers, rows))
+            numbers = [*force_of(frame, body), *dynamics_of(frame, body)]
+            yield self._headed("contacts", touched, *map(self._numbers, numbers))
         for sensor, reading in readings_of(frame, body):
             kind_of_it, key = snake_case(type(sensor).__name__), sensor.key
             drawn = rows_of(self, frame, body, sensor, reading)
@@ -125,20 +126,24 @@ class Inspector(RowsPanel):
             words = (self.line(LINE, [Word(each, theme.text)]) for each in heard)
             yield self._headed("inbox", "" if heard[0] else "nothing yet", *words)
 
-    def _numbers(self, width: float, row: tuple[str, Sequence[tuple[str, str]]]) -> Row:
+    def _numbers(self, row: tuple[str, Sequence[tuple[str, str]]]) -> Row:
         """Return a label and up to three numbers in columns, as large as there is room."""
         (what, numbers), theme, ui = row, self.painter.theme, self.painter.ui
-        room = (1 - LABEL) * width / len(numbers) - 14
-        widest = max(self.painter.fonts.width(f"{a}{b}", 12.5 * ui) / ui for a, b in numbers)
-        size = 12.5 * min(1.0, room / widest)
-        ends = [
-            (
-                LABEL + (1 - LABEL) * k / len(numbers),
-                [Word(name, theme.muted, size), Word(value, theme.ink, size)],
-            )
-            for k, (name, value) in enumerate(numbers, 1)
-        ]
-        return self.line(ROW, [Word(what, theme.muted, size)], ends=ends)
+        widest = max(self.painter.fonts.width(f"{a}{b}", SIZE * ui) for a, b in numbers)
+
+        def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
+            room = (1 - LABEL) * rect.width / len(numbers) - 14 * ui
+            size = SIZE * min(1.0, room / widest)
+            ends = [
+                (
+                    LABEL + (1 - LABEL) * k / len(numbers),
+                    [Word(name, theme.muted, size), Word(value, theme.ink, size)],
+                )
+                for k, (name, value) in enumerate(numbers, 1)
+            ]
+            self.line(ROW, [Word(what, theme.muted, size)], ends=ends).draw(surface, rect)
+
+        return Row(ROW, draw)
 
     def _headed(self, title: str, more: str, *rows: Row) -> Row:
         """Return a section with a line above it, its title and more at the right."""

@@ -7,7 +7,8 @@ import time
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from functools import partial
-from math import inf
+from itertools import combinations
+from math import dist, inf
 from threading import Lock
 
 import pygame
@@ -35,6 +36,8 @@ from mars2d.window.widgets.actions import label_of
 from mars2d.window.widgets.help import Help
 from mars2d.window.widgets.notes import Notes
 
+NAME = 20.0
+"""How far bodies are apart at the start where their names are drawn at first, points."""
 ZOOM = 2.0
 """How far a key zooms, in notches of the wheel."""
 THEIRS = ("sensors", "messages", "neighbours", "theory", "addons")
@@ -212,6 +215,13 @@ class PlayerWindow(ABC):
         banner = self._ending.banner()
         height = footer_height(banner, size, looks.painter, looks.text, looks.scale)
         return looks.layout(size, height, controls=True)
+
+    def _leave_out_names(self, ui: float) -> None:
+        """Draw no names at first where bodies are so near that these would cover each other."""
+        places = [body.pose[:2] for body in self.player.source.scenario.bodies]
+        apart = min((dist(*pair) for pair in combinations(places, 2)), default=inf)
+        fits = apart * self.camera.scale > NAME * ui
+        self.layers = self.layers.switched(names=self.layers.names and fits)
 
     @property
     def _pointer(self) -> tuple[int, int] | None:

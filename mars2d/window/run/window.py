@@ -90,6 +90,7 @@ class Window(PlayerWindow):
         )
         bounds = source.bounds if isinstance(source, Playback) else None
         self.viewpoint = Viewpoint(source.scenario, self._layout(size), bounds)
+        self._leave_out_names(self.layout.ui)
         self.mouse = self.grab = Grab(
             self.player, self.viewpoint, self._controls.handles, self._place,
             self.director.change, partial(self.notes.say, kind="warning"),
@@ -252,8 +253,8 @@ class Window(PlayerWindow):
         self.help.draw(surface, layout, painter, keys.GROUPS.items())
 
     def _draw_notes(self, surface: pygame.Surface) -> None:
-        off, room = self._selected_pixel(self.player.frame), self.viewpoint.room
-        self.notes.draw(surface, room, self.looks.painter, time.monotonic(), off)
+        off, painter = self._selected_pixel(self.player.frame), self.looks.painter
+        self.notes.draw(surface, self.layout.plot, painter, time.monotonic(), off)
 
     def _draw_dock(self, surface: pygame.Surface, frame: Frame) -> None:
         """Draw the panels, away from the selected body where the arena makes no room for them."""
