@@ -190,7 +190,7 @@ def test_a_file_without_parameters_and_a_failing_value_are_said(file):
     desk = Desk(file)
     desk.source.experiment = open_experiment("go_to_point")
     assert desk.panel.parameters() == {}
-    assert desk.panel._look()[0].text.startswith("No parameters")
+    assert desk.panel._look()[0][0].startswith("No parameters")
     assert desk.panel._words()[0].startswith("select a robot or prop")
     desk.source.experiment = open_experiment(file)
     desk.panel.focus = "mu"

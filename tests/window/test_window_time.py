@@ -144,20 +144,6 @@ def test_where_a_law_fails_its_line_is_shown_and_the_past_can_be_looked_at(open_
     assert "I am lost" in window.state["raised"]
 
 
-def test_a_law_that_is_saved_is_in_effect_from_now_on(open_window, room):
-    window = open_window(1, experiment=str(room))
-    window.until(lambda s: s["time"] > 0.5)
-    room.write_text(room.read_text().replace("return 0.2, 0.0", "return -0.2, 0.0"))
-    window.says("in effect from now on")
-    furthest = window.settle()["robots"][0][0]
-    window.until(lambda s: s["robots"][0][0] < furthest)
-    room.write_text(room.read_text().replace("return -0.2, 0.0", "return -0.2 0.0"))
-    window.says("the old law goes on")
-    row = window.state["row"]
-    window.until(lambda s: s["row"] > row + 3)
-    assert "left" not in window.settle()
-
-
 def test_a_file_with_fewer_robots_starts_anew_whatever_was_selected(open_window, room):
     window = open_window(1, experiment=str(room))
     window.point(1, -1)
