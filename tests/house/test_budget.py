@@ -23,12 +23,12 @@ LINES = {
     "rl": 851,
     "scenario": 4_991,
     "sensors": 1_852,
-    "study": 2_814,
+    "study": 2_745,
     "testing": 786,
     "tournaments": 3_092,
     "window": 13_685,
     "world": 3_776,
-    "tests": 48_416,
+    "tests": 48_376,
 }
 """Lines at most, by room of the package, and of all tests."""
 

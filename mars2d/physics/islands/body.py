@@ -31,8 +31,9 @@ class Body(DrivenBody):
     # what the floor may do
     allowed: cython.double  # N and N m that it may use now
     twist_allowed: cython.double
-    held: cython.double  # N and N m that it has used in the last substep
-    twist_held: cython.double
+    applied_x: cython.double  # N and N m that all else did in the last substep, if it lasts
+    applied_y: cython.double
+    applied_turn: cython.double
     # a pull from outside
     pulled: cython.bint
     pull_x: cython.double

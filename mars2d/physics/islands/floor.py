@@ -22,29 +22,40 @@ from mars2d.physics.islands.body import Body
 def hold(body: Body, h: cython.double) -> cython.void:
     """Set the floor's largest impulses on a body in the next substep of h s.
 
-    A body at rest is held by force and torque together as by either alone, in the parts that they
-    had in the last substep. It counts as at rest if the floor stops it at once, within a hundredth
-    of the substep: else what barely spins could be pushed along as if there were no floor. Where
-    static friction is larger it breaks loose once that was used up.
+    What else acts on it is thought to go on. If the floor can stop it within the substep, or hold
+    it where it rests, that takes no more than it can: else it shares its force between sliding and
+    spinning as for the mean of the velocities before and after.
     """
-    u: cython.double = length(body.vx, body.vy)
-    s: cython.double = body.lever * abs(body.spin)
-    d: cython.double = length(u, s)
-    if d > max(1e-6, 0.01 * body.slows * h):
-        body.allowed = body.grip * (u / d)
-        body.twist_allowed = body.twist_grip * (s / d)
+    x: cython.double = body.applied_x * (h / body.mass)
+    y: cython.double = body.applied_y * (h / body.mass)
+    turn: cython.double = body.lever * body.applied_turn * (h / body.moment)
+    spin: cython.double = body.lever * body.spin
+    slide: cython.double = body.slows * h
+    twist: cython.double = body.lever * body.stops * h
+    rests: cython.bint = length(length(body.vx, body.vy), spin) <= max(1e-6, 0.01 * slide)
+    grip: cython.double = body.rest_grip if rests else body.grip
+    first: cython.double = length(body.vx + x, body.vy + y) * (body.mass / h)
+    second: cython.double = abs(spin + turn) / (body.lever * body.lever) * (body.moment / h)
+    if length(first, second) <= grip:
+        body.allowed, body.twist_allowed = grip, grip * body.lever
         return
-    first: cython.double = body.held / max(body.rest_grip, 1e-300)
-    second: cython.double = body.twist_held / max(body.rest_twist_grip, 1e-300)
-    over: cython.double = length(first, second)
-    if over > 1.0 - 1e-9 and body.rest_grip > body.grip:
-        body.allowed = body.grip * (first / over)
-        body.twist_allowed = body.twist_grip * (second / over)
-    elif over > 1.0:
-        body.allowed = body.rest_grip * (first / over)
-        body.twist_allowed = body.rest_twist_grip * (second / over)
-    else:
-        body.allowed, body.twist_allowed = body.rest_grip, body.rest_twist_grip
+    u: cython.double = max(length(body.vx + x / 2, body.vy + y / 2), 1e-300)
+    s: cython.double = abs(spin + turn / 2)
+    # d is that of the mean: what falls by the floor by half of what it takes in the substep.
+    d: cython.double = max(length(u, s) - max(slide, twist) / 2, 0.0)
+    for _round in range(30):
+        first, second = u / max(d + slide / 2, 1e-300), s / max(d + twist / 2, 1e-300)
+        over: cython.double = first * first + second * second - 1.0
+        if over <= 1e-12:
+            break
+        slope: cython.double = first * first / max(d + slide / 2, 1e-300)
+        slope = slope + second * second / max(d + twist / 2, 1e-300)
+        d = d + over / (2 * slope)
+    size: cython.double = length(first, second)
+    body.allowed, body.twist_allowed = (
+        body.grip * (first / size),
+        body.twist_grip * (second / size),
+    )
 
 
 @cython.cclass

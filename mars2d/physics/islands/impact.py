@@ -226,8 +226,17 @@ def find_shifts(solver: Solver, h: cython.double) -> cython.void:
     for body in solver.bodies:
         group = group_of(body)
         body.eased = not group.lasting and group.hit_power > 0.0
+        body.applied_x = body.applied_y = body.applied_turn = 0.0
         if group.lasting:
             body.shift = h / 2
+            if body.engaged and not body.is_robot:
+                solver.take_reaction(body)
+                momentum: cython.double = body.mass * (body.after_x - body.before_x)
+                body.applied_x = (momentum - body.reaction_x) / h
+                momentum = body.mass * (body.after_y - body.before_y)
+                body.applied_y = (momentum - body.reaction_y) / h
+                momentum = body.moment * (body.spin - body.before_spin)
+                body.applied_turn = (momentum - body.reaction_turn) / h
         elif group.hit_power > 0.0:
             body.shift = middle + group.hit_depth / group.hit_power
         else:

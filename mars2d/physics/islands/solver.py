@@ -76,7 +76,8 @@ class Solver:
         body.solver, body.placed = self, True
         self.bodies.append(body)
         if not body.is_robot and body.rest_grip > 0.0:  # the floor is another one in each space
-            body.allowed = body.twist_allowed = body.held = body.twist_held = 0.0
+            body.allowed = body.twist_allowed = 0.0
+            body.applied_x = body.applied_y = body.applied_turn = 0.0
             self.attach(body)
             self.engage(body)
 
@@ -362,9 +363,6 @@ class Solver:
                 body.displace(half * body.before_x, half * body.before_y, half * body.before_spin)
             body.moved_x, body.moved_y, body.moved_angle = body.x, body.y, body.angle
             body.after_x, body.after_y, body.spin = fast.x, fast.y, chipmunk.spin_of(body.handle)
-            if not body.is_robot and body.engaged:
-                body.held = chipmunk.used_of(body.pivot) / h
-                body.twist_held = chipmunk.used_of(body.gear) / h
             if body.is_robot and body.engaged and body.grip_across < 1e300:
                 self.measure_traction(body, h)
             if body.is_robot and body.solved:
