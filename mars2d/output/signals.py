@@ -276,7 +276,8 @@ def _by_quantity(whole: Signal, sensor: Sensor | None, name: str, parts: list[st
                 f"columns: {name!r}: {part!r}: expected {' or '.join([*expected, *names])}"
             )
         elif axes:
-            signal = _indexed(signal, int(part))
+            values = signal.values[:, :, int(part)]
+            signal = replace(signal, name=f"{signal.name}.{int(part)}", values=values)
         else:
             wanted = [int(part)]
     if not names:
@@ -293,11 +294,6 @@ def _by_quantity(whole: Signal, sensor: Sensor | None, name: str, parts: list[st
 def _of_kind(signal: Signal, quantity: Quantity) -> Signal:
     """Return a signal with the unit of a quantity, and drawn as its kind requires."""
     return replace(signal, unit=quantity.unit, wraps=quantity.kind == "angle")
-
-
-def _indexed(signal: Signal, index: int) -> Signal:
-    """Return one entry of a reading's first axis, for example one beam."""
-    return replace(signal, name=f"{signal.name}.{index}", values=signal.values[:, :, index])
 
 
 def without_nothing(signal: Signal) -> Signal:

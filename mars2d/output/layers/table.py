@@ -35,14 +35,6 @@ from mars2d.scenario.scenario import Scenario
 Float = NDArray[np.float64]
 
 
-def _always(animation: Animation) -> bool:  # noqa: ARG001
-    return True
-
-
-def _never(animation: Animation) -> bool:  # noqa: ARG001
-    return False
-
-
 def _of_scenario(shapes: Callable[[Scenario], Scene]) -> Callable[[Frame], Scene]:
     """Return a layer's function of the frame, for a layer that depends on the scenario alone."""
     return lambda frame: shapes(frame.scenario)
@@ -79,7 +71,7 @@ class Layer:
     shapes: Callable[[Frame], Scene] | None = None
     key: str = ""
     switch: bool = True
-    at_first: Callable[[Animation], bool] = _always
+    at_first: Callable[[Animation], bool] = lambda _: True
     stands: bool = False
     each: Callable[[Scene, Scenario, int, Float], None] | None = None
     along: tuple[str, ...] = ()
@@ -124,7 +116,9 @@ LAYERS: list[Layer] = [
     Layer(name="rings", title="Rings", switch=False, each=place_ring),
     Layer(name="robots", title="Robots", switch=False, each=place_robot),
     Layer(name="joints", title="Joints", shapes=joints, switch=False),
-    Layer(name="velocities", title="Velocities", shapes=velocities, key="u", at_first=_never),
+    Layer(
+        name="velocities", title="Velocities", shapes=velocities, key="u", at_first=lambda _: False,
+    ),
     Layer(
         name="impulses", title="Impulses", shapes=impulses, at_first=attrgetter("forces"),
     ),

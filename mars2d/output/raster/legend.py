@@ -45,34 +45,30 @@ def draw_legends(
     """
     if min(plot.size) < LEAST * painter.ui:
         return corner
-    choices = [_placed(painter, camera, room, room.height, legends) for room in beside]
+    rooms = [_placed(painter, camera, room, room.height, legends) for room in beside]
+    best = max([Placed(), *rooms], key=len)
     inside = _placed(painter, camera, plot, MAX_SHARE * plot.height, legends)
-    best = max([*choices, inside], key=len)
-    if best is inside and inside:
-        column = plot.copy()
+    if len(inside) > len(best):
+        column, near = plot.copy(), round(NEAR * painter.ui)
         column.width = max(plate.width for _, plate in inside) + round(GAP * painter.ui)
-        stacked = _placed(painter, camera, column, plot.height / 2, legends)
-        ways = [inside, stacked] if len(stacked) == len(inside) else [inside]
-        corners = [_mirrored(way, plot, k) for way in ways for k in range(4)]
-        corner %= len(corners)
-        near = round(NEAR * painter.ui)
-        rooms = [[plate.inflate(near, near) for _, plate in each] for each in corners]
-        counts = [sum(rect.collidepoint(p) for rect in each for p in bodies) for each in rooms]
-        corner = corner if not counts[corner] else counts.index(min(counts))
-        best = corners[corner]
+        above = _placed(painter, camera, column, plot.height / 2, legends)
+        ways = [each for each in (inside, above) if len(each) == len(inside)]
+        left, top = plot.left + plot.right, plot.top + plot.bottom
+        corners = [
+            [(signs, plate.move(k % 2 * (left - plate.left - plate.right),
+                                k // 2 * (top - plate.top - plate.bottom)))
+             for signs, plate in way]
+            for way in ways for k in range(4)
+        ]  # fmt: skip
+        counts = [
+            sum(plate.inflate(near, near).collidepoint(p) for _, plate in each for p in bodies)
+            for each in corners
+        ]
+        corner = corner if not counts[corner % len(corners)] else counts.index(min(counts))
+        best = corners[corner % len(corners)]
     for signs, plate in best:
         _drawn(surface, painter, signs, plate)
     return corner
-
-
-def _mirrored(placed: Placed, plot: pygame.Rect, corner: int) -> Placed:
-    """Return what is placed at the lower left in another corner: 1 and 3 at the right, 2 above."""
-    found = []
-    for signs, plate in placed:
-        across, up = plot.left + plot.right - plate.right, plot.top + plot.bottom - plate.bottom
-        left, top = across if corner & 1 else plate.left, up if corner & 2 else plate.top
-        found.append((signs, pygame.Rect((left, top), plate.size)))
-    return found
 
 
 def _placed(

@@ -390,7 +390,7 @@ class Painter:
 
     def _keep(self, key: Hashable, box: pygame.Rect, layers: Sequence[Layer]) -> Sprite:
         """Draw a sprite from its layers, the first lowest, and keep it."""
-        finer = _sprite_factor(box)
+        finer = 8 if box.width * box.height < 1600 else 4
         images = [
             brushes.layer(color, box, draw, factor or finer) for color, draw, factor in layers
         ]
@@ -419,10 +419,6 @@ def _cells(start: float, size: float, count: int, low: int, high: int) -> tuple[
     pixels. low, high: the screen pixels in sight.
     """
     return max(floor((low - start) / size), 0), min(ceil((high - start) / size), count)
-
-
-def _sprite_factor(box: pygame.Rect) -> int:
-    return 8 if box.width * box.height < 1600 else 4
 
 
 def _phase(value: float) -> tuple[int, float]:

@@ -54,7 +54,9 @@ def read(path: Path, largest: int) -> Rows:
                 end, count = json.loads(told.metadata["end"]), int(told.metadata["rows"])
                 headers.check_sums(end)
         if header is None:
-            raise InputError(_why_nothing(path, channels))
+            if channels or path.stat().st_size < len(MAGIC):
+                raise InputError("holds no rows: the run ended before its first one")
+            raise InputError("an MCAP file, but not of MARS2D: it has no rows of a run")
         return _record(rows, header, end if len(rows) == count else None)
 
 
@@ -95,13 +97,6 @@ def _cut(rows: list[bytes], count: int) -> None:
     if count > len(rows):
         raise ValueError("a row that does not follow the one before")
     del rows[count:]
-
-
-def _why_nothing(path: Path, channels: set[int]) -> str:
-    """Return why a file holds no run. channels: those for rows in the file."""
-    if channels or path.stat().st_size < len(MAGIC):
-        return "holds no rows: the run ended before its first one"
-    return "an MCAP file, but not of MARS2D: it has no rows of a run"
 
 
 def _record(rows: list[bytes], header: dict[str, Any], end: dict[str, Any] | None) -> Rows:
