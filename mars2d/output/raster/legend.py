@@ -40,8 +40,7 @@ def draw_legends(
 
     beside: where they hide nothing; they lie in the first of these that has room for all. Else they
     lie in a corner, side by side or one above the other: where they lay last, or if they hide
-    bodies there, where they hide the fewest. bodies: their middles, pixels. Return where they lie,
-    0 to 7.
+    bodies there, where they hide the fewest. bodies: their middles, pixels. Return where, 0 to 7.
     """
     if min(plot.size) < LEAST * painter.ui:
         return corner
@@ -60,10 +59,8 @@ def draw_legends(
              for signs, plate in way]
             for way in ways for k in range(4)
         ]  # fmt: skip
-        counts = [
-            sum(plate.inflate(near, near).collidepoint(p) for _, plate in each for p in bodies)
-            for each in corners
-        ]
+        plates = [[plate.inflate(near, near) for _, plate in each] for each in corners]
+        counts = [sum(rect.collidepoint(p) for rect in each for p in bodies) for each in plates]
         corner = corner if not counts[corner % len(corners)] else counts.index(min(counts))
         best = corners[corner % len(corners)]
     for signs, plate in best:
