@@ -108,7 +108,7 @@ def main() -> None:
     many = Timed(Timeline(open_experiment(crowd())), 1.0, (1280, 720))
     robots = tuple(range(len(many.player.source.scenario.robots)))
     for what in ("speed", "force", "energy"):
-        many.scopes.switch(what, robots)
+        many.dock.scopes.switch(what, robots)
     threading.Timer(arguments.seconds + 2, lambda: setattr(many, "_open", False)).start()
     many.run()
     late = [each for each in many.shown if each > many.shown[0] + 2]

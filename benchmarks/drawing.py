@@ -191,7 +191,7 @@ class Watched:
         if inspector:
             window.select(3)
         for what in SCOPES if scopes else ():
-            window.scopes.switch(what, tuple(range(len(scene[1].scenario.robots))))
+            window.dock.scopes.switch(what, tuple(range(len(scene[1].scenario.robots))))
         if following:
             window.viewpoint.follow(3)
         self._each_step = each_step

@@ -39,7 +39,7 @@ def share(example: str, seconds: float, *, plays: bool, rests: bool, scopes: boo
     window = Watched(Timeline(open_experiment(example)))
     robots = tuple(range(len(window.player.source.scenario.robots)))
     for what in ("speed", "force") if scopes else ():
-        window.scopes.switch(what, robots)
+        window.dock.scopes.switch(what, robots)
     window.seconds, window.player.paused = seconds, not plays
     quiet, rest.QUIET = rest.QUIET, rest.QUIET if rests else 1e9
     try:

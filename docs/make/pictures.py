@@ -115,7 +115,7 @@ def scopes(path: Path) -> None:
     timeline = Timeline(open_experiment("head_on"))
     window = Window(timeline, size=(1100, 640))
     for what in ("speed", "force"):
-        window.scopes.switch(what, range(4))
+        window.dock.scopes.switch(what, range(4))
     advanced(timeline, 120)
     window.player.settle()
     save_window(window, path)

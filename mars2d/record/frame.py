@@ -29,10 +29,6 @@ def _no_message_log() -> tuple[NDArray[np.void], Sequence[str]]:
     return np.empty(0, dtype=MESSAGE), ()
 
 
-def _no_readings(name: str, robot: int) -> None:  # noqa: ARG001
-    return None
-
-
 @dataclass(frozen=True, slots=True)
 class Frame:
     """The state of an experiment at one instant, and its past.
@@ -69,7 +65,7 @@ class Frame:
     messages: NDArray[np.void] = field(default_factory=lambda: _no_message_log()[0])
     command_path: Float = field(default_factory=lambda: np.empty((0, 2, 0)))
     message_log: Callable[[], tuple[NDArray[np.void], Sequence[str]]] = _no_message_log
-    reading_path: Callable[[str, int], NDArray[Any] | None] = _no_readings
+    reading_path: Callable[[str, int], NDArray[Any] | None] = lambda *_: None
     exact_velocity: Float = field(default_factory=lambda: np.empty((3, 0)))
     work: Float = field(default_factory=lambda: np.empty(0))
     leaps: Sequence[Leap] = ()

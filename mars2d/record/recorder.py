@@ -280,18 +280,13 @@ def _as_reading(name: str, values: Sequence[Any] | NDArray[Any]) -> NDArray[Any]
         "a number, True or False, or an array of them, of the same shape on each robot (else give "
         "the sensors other names)",
     )  # fmt: skip
-    if given.dtype != bool and any(_is_flag(value) for value in values):
+    flags = (isinstance(each, bool) or getattr(each, "dtype", None) == "bool" for each in values)
+    if given.dtype != bool and any(flags):
         raise LawError(
             f"sensor {name!r} read {shown(values)}: True or False on one robot and numbers on "
             "another; give the sensors other names"
         )
     return given
-
-
-def _is_flag(value: Any) -> bool:
-    return isinstance(value, (bool, np.bool_)) or (
-        isinstance(value, np.ndarray) and value.dtype.kind == "b"
-    )
 
 
 def _kind(dtype: np.dtype[Any], shape: tuple[int, ...]) -> str:

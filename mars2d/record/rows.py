@@ -148,6 +148,11 @@ class Rows:
         return np.concatenate([self.velocity, self.prop_velocity], axis=-1)
 
     @property
+    def steps(self) -> int:
+        """How many control steps were done; a run that was cut short has no row after its last."""
+        return max(len(self) - self.finished, 0)
+
+    @property
     def collisions(self) -> int:
         """How many times two bodies came to touch that did not touch before."""
         return int(met(self.contacts).sum())

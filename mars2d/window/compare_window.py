@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -22,7 +22,7 @@ from mars2d.output.figures.comparison import (
     Drift,
 )
 from mars2d.output.films.footage import Cut
-from mars2d.output.raster.bars import Status, draw_footer, draw_header, footer_height
+from mars2d.output.raster.bars import Status, draw_footer, draw_header
 from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
@@ -30,12 +30,12 @@ from mars2d.output.raster.picture import summary
 from mars2d.output.raster.stage import Stage
 from mars2d.record.frame import Frame
 from mars2d.window.run import keys
-from mars2d.window.run.ending import Ending
+from mars2d.window.run.mouse import Mouse, Pixel
 from mars2d.window.run.player_window import PlayerWindow
 from mars2d.window.run.toolbar import Toolbar
 from mars2d.window.screen.display import Preferences
 from mars2d.window.screen.source import Trio
-from mars2d.window.screen.viewpoint import Viewpoint, wheel_notches
+from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.actions import Action
 from mars2d.window.widgets.plot import Limits, draw_axes, polylines
 from mars2d.world.timeline import Timeline
@@ -44,6 +44,8 @@ LEFT, RIGHT, HEAD, FOOT = 72.0, 24.0, 34.0, 26.0
 """The room round the axes, points."""
 MIN_TIME = 2.0
 """The shortest time axis, seconds."""
+SIZE, SIGN = 13.0, 48.0
+"""The height of letters above it, and the room for the sign of a curve, points."""
 TITLE = "Distance from where contact puts a body"
 
 
@@ -82,53 +84,53 @@ class DriftPlot:
         drifts: Mapping[str, Drift],
         now: float,
         end: float,
+        largest: float,
     ) -> None:
         """Draw the plot within a rectangle.
 
         drifts: by the physics. now, end: the time that is shown, and that of the last row, seconds.
+        largest: the scale of the words above it, if they have room.
         """
-        ui, theme = painter.ui, painter.theme
+        ui, theme, fonts, scene = painter.ui, painter.theme, painter.fonts, Scene()
         surface.fill(theme.paper, rect)
         surface.fill(theme.edge, (rect.left, rect.top, rect.width, 1))
-        self.area = area = pygame.Rect(
-            rect.left + round(LEFT * ui), rect.top + round(HEAD * ui),
-            rect.width - round((LEFT + RIGHT) * ui), rect.height - round((HEAD + FOOT) * ui),
-        )  # fmt: skip
+        farthest = max(float(drift.max.max(initial=0.0)) for drift in drifts.values())
+        agree, self._end = farthest < NO_DRIFT, max(end, MIN_TIME)
+        limits = Limits(0.0, self._end, 0.0, 1.0 if agree else 1.06 * farthest)
+        words, above = dict[tuple[str, str], str](), drifts[next(iter(drifts))]
+        for mode, drift in drifts.items():
+            for name, *_ in CURVES:
+                hidden = drift is not above and _alike(drift, above, name, HIDDEN * limits.high)
+                words[mode, name] = f"{mode}, {name}{': the same' * hidden}"
+        need = sum(fonts.width(word, SIZE) + SIGN for word in words.values())
+        wide = rect.width - round((LEFT + RIGHT) * ui)
+        large = max(ui, min(largest, wide / need))
+        left, top = rect.left + round(LEFT * ui), rect.top + round(HEAD * large)
+        self.area = area = pygame.Rect(left, top, wide, rect.bottom - top - round(FOOT * ui))
         if area.width <= 0 or area.height <= 0:
             return
-        self._end = max(end, MIN_TIME)
-        largest = max(float(drift.max.max(initial=0.0)) for drift in drifts.values())
-        agree = largest < NO_DRIFT
-        limits = Limits(0.0, self._end, 0.0, 1.0 if agree else 1.06 * largest)
         draw_axes(surface, area, painter, limits, "m")
-        middle, right, scene = rect.top + round(HEAD / 2 * ui), area.right, Scene()
+        right, middle = area.right, (rect.top + area.top) // 2
         for mode, drift in reversed(list(drifts.items())):
             for name, dash, width in reversed(CURVES):
                 look = {"stroke": COLORS[mode], "width": width, "style": dash}
                 for points in polylines(area, limits, drift.time, getattr(drift, name)):
                     scene.line(points * (1, -1), **look)
-                word, size = f"{mode}, {name}", 12.5 * ui
-                above = drifts[next(iter(drifts))]
-                if drift is not above and _alike(drift, above, name, HIDDEN * limits.high):
-                    word = f"{word}: the same"
-                left = right - painter.fonts.width(word, size) - round(30 * ui)
-                if left > area.left:
-                    painter.write(surface, word, size, theme.text, midright=(right, middle))
-                    scene.line([(left, -middle), (left + 24 * ui, -middle)], **look)
-                    right = left - round(14 * ui)
+                at, size = (right, middle), SIZE * large
+                place = painter.write(surface, words[mode, name], size, theme.text, midright=at)
+                left = place.left - round(30 * large)
+                scene.line([(left, -middle), (left + 24 * large, -middle)], **look)
+                right = left - round(14 * large)
         x = float(limits.pixels(area, np.array([now]), np.zeros(1))[0, 0])
         scene.line([(x, -area.top), (x, -area.bottom)], stroke=theme.selected, width=1.2)
         painter.paint(surface, scene.shapes, PIXELS)
         if agree:
             at = area.center
             painter.write(surface, "the three runs agree", 13 * ui, theme.muted, center=at)
-        title = painter.fonts.shorten(TITLE, 13.5 * ui, right - area.left, bold=True)
-        if len(title) > len(TITLE) // 2:
+        if fonts.width(TITLE, SIZE * large, bold=True) < right - area.left:
             at = area.left, middle
-            painter.write(surface, title, 13.5 * ui, theme.ink, bold=True, midleft=at)
+            painter.write(surface, TITLE, SIZE * large, theme.ink, bold=True, midleft=at)
 
-
-Pixel = tuple[int, int]
 
 HINTS = (("Space", "pause"), ("← →", "step"), ("N", "contact"), ("F1", "help"))
 TITLE_HEIGHT = 74.0
@@ -161,9 +163,10 @@ class CompareWindow(PlayerWindow):
         super().__init__(trio, speed, size, preferences, title=title, stem=stem, marked=marked)
         self.trio, self.plot = trio, DriftPlot()
         self._stages = {mode: Stage(self.looks.painter) for mode in MODES}
-        self._ending = Ending(self.player)
-        self._dragged: Callable[[Pixel], None] | None = None
         self.viewpoint = Viewpoint(trio.scenario, self._arrange(self.looks.layout(size)))
+        self._leave_out_names(self._ui)
+        handles = [*self._controls.handles, (self.plot.hit, self._scrub)]
+        self.mouse = Mouse(self.viewpoint, handles, self._place)
         self.toolbar = Toolbar(self._actions, self._is_on, live=True)
 
     def _calls(self) -> object:
@@ -189,13 +192,11 @@ class CompareWindow(PlayerWindow):
 
     def draw(self, surface: pygame.Surface, *, notes: bool = True) -> None:
         """Draw the window on a surface; the layout follows its size."""
-        painter, banner = self.looks.painter, self._ending.banner()
-        size, frame, pointer = surface.get_size(), self.player.frame, self._pointer
-        foot = footer_height(banner, size, painter, self.looks.text, self.looks.scale)
-        layout = self.looks.layout(size, foot, controls=True)
+        painter, frame, pointer = self.looks.painter, self.player.frame, self._pointer
+        layout = self._layout(surface.get_size())
         self._draw_runs(surface, layout, frame.time, Status(*self.player.status()))
-        self._controls.draw(surface, layout, painter, pointer, lambda drag: self._dragged == drag)
-        draw_footer(surface, layout, painter, banner, summary(frame), HINTS)
+        self._controls.draw(surface, layout, painter, pointer, self.mouse.drags)
+        draw_footer(surface, layout, painter, self._ending.banner(), summary(frame), HINTS)
         self.toolbar.draw(surface, layout, painter, pointer)
         if notes:
             self.notes.draw(surface, layout.plot, painter, time.monotonic())
@@ -242,7 +243,7 @@ class CompareWindow(PlayerWindow):
             if plot is not first:
                 surface.fill(theme.edge, (plot.left, layout.plot.top, 1, plot.bottom))
         end = trio.scenario.sampling_time * trio.newest
-        self.plot.draw(surface, self._plot_place, painter, trio.drifts, moment, end)
+        self.plot.draw(surface, self._plot_place, painter, trio.drifts, moment, end, layout.ui)
         painter.ui = layout.ui
         latest = max(frames.values(), key=lambda frame: frame.time)
         draw_header(surface, layout, painter, latest, status)
@@ -285,34 +286,13 @@ class CompareWindow(PlayerWindow):
     def _take(self, event: pygame.Event) -> bool:
         return self.toolbar.handle(event)
 
-    def _point(self, event: pygame.Event) -> None:
-        """Handle the mouse on the arenas, the plot and the bars."""
-        if event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
-            on_arena = lambda pixel: self._arena_at(pixel) is not None  # noqa: E731
-            handles = [*self._controls.handles, (self.plot.hit, self._scrub), (on_arena, self._pan)]
-            self._dragged = next((drag for hit, drag in handles if hit(event.pos)), None)
-            if self._dragged is not None and self._dragged != self._pan:
-                self._dragged(event.pos)
-        elif event.type == pygame.MOUSEBUTTONUP:
-            self._dragged = None
-        elif event.type == pygame.MOUSEMOTION and self._dragged == self._pan:
-            self.viewpoint.pan(*event.rel)
-        elif event.type == pygame.MOUSEMOTION and self._dragged is not None:
-            self._dragged(event.pos)
-        elif event.type == pygame.MOUSEWHEEL:
-            x, y = pygame.mouse.get_pos()
-            arena = self._arena_at((x, y))
-            if arena is not None:
-                shift = arena.left - self.plots[MODES[0]].left
-                self.viewpoint.zoom(wheel_notches(event), (x - shift, y))
-
-    def _arena_at(self, pixel: Pixel) -> pygame.Rect | None:
+    def _place(self, pixel: Pixel) -> Pixel | None:
+        """Return where the first arena shows what one of them shows at a pixel."""
         if self.help.is_open or self.toolbar.covers(pixel):
             return None
-        return next((plot for plot in self.plots.values() if plot.collidepoint(pixel)), None)
-
-    def _pan(self, pixel: Pixel) -> None:
-        """Move the pictures; `_point` does it by how far the mouse has moved."""
+        left = self.plots[MODES[0]].left
+        found = (plot for plot in self.plots.values() if plot.collidepoint(pixel))
+        return next(((pixel[0] - plot.left + left, pixel[1]) for plot in found), None)
 
     def _scrub(self, pixel: Pixel) -> None:
         """Go to the time at a pixel of the plot."""

@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from functools import cache
+from collections.abc import Callable
+from functools import cache, partial
 from pathlib import Path
 
 import pygame
 
-from mars2d.output.controls import CONTROLS
 from mars2d.output.raster.layout import interface_scale
 from mars2d.scenario.examples import GAME, courses, examples, games, thumbnail_of, title_of
+from mars2d.window.run.keys import HOME, bound
 from mars2d.window.screen.display import PICTURES_A_SECOND, started_display
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.memory import Memory
 from mars2d.window.screen.rest import Rest
-from mars2d.window.widgets.actions import Action
+from mars2d.window.widgets.actions import action_of
 from mars2d.window.widgets.buttons import Buttons
 from mars2d.window.widgets.cards import Card, Page, Shelf
+from mars2d.window.widgets.help import Help
 from mars2d.window.widgets.notes import Notes
 from mars2d.window.widgets.text_field import TextField
 
@@ -24,7 +26,7 @@ HEADER, FOOTER = 58.0, 44.0
 """The heights of the bars, points."""
 OPENS = {".py": "run", ".toml": "run", ".npz": "replay", ".mcap": "replay"}
 """The command that opens a file, by its suffix."""
-HINT = "Type to search"
+HINT, MORE = "Type to search", ", F1: all keys"
 
 
 class Home:
@@ -41,10 +43,23 @@ class Home:
         self.painter, self.size = self.looks.painter, memory.size
         self.page, self.search = Page(), TextField()
         self.choice: tuple[str, ...] | None = None
-        looks = [(name, CONTROLS[name], self.looks.actions[name]) for name in ("dark", "text")]
-        self._buttons = Buttons(
-            [[Action(name, act=act, title=it.title, icon=it.icon) for name, it, act in looks]]
-        )
+        self.help = Help()
+        self._actions: dict[str, Callable[[], None]] = {
+            "right": partial(self.page.move, 1, 0),
+            "left": partial(self.page.move, -1, 0),
+            "up": partial(self.page.move, 0, -1),
+            "down": partial(self.page.move, 0, 1),
+            "turn_back": partial(self.page.turn, -0.9),
+            "turn_on": partial(self.page.turn, 0.9),
+            "open": self._choose,
+            "watch": self._watch,
+            **self.looks.actions,
+            "help": self.help.turn,
+            "escape": self._escape,
+            "leave": self._leave,
+        }
+        buttons = bound(("dark", "text"), self._actions, self.looks.is_on, HOME)
+        self._buttons = Buttons([buttons])
         self._open = True
         if note:
             self._notes.say(note, "error")
@@ -130,6 +145,8 @@ class Home:
         self._draw_line(surface, footer, pad)
         self._notes.draw(surface, area, painter, pygame.time.get_ticks() / 1000)
         self._buttons.draw_tip(surface, painter, pointer)
+        keys = [action for action in HOME if action.help]
+        self.help.draw(surface, self.looks.layout(size), painter, [("Home", keys)])
 
     def _draw_search(self, surface: pygame.Surface, header: pygame.Rect, right: int) -> None:
         """Draw the field with the words to search for."""
@@ -144,7 +161,8 @@ class Home:
             words = "nothing like that"
             end = self.painter.write(surface, words, 13 * ui, theme.muted, midright=inner.midright)
             inner.width -= end.width
-        self.search.draw(surface, inner, self.painter, 15 * ui, hint=HINT)
+        fits = self.painter.fonts.width(HINT + MORE, 15 * ui) < inner.width
+        self.search.draw(surface, inner, self.painter, 15 * ui, hint=HINT + MORE * fits)
 
     def _draw_line(self, surface: pygame.Surface, footer: pygame.Rect, pad: int) -> None:
         """Say more about the chosen card, and the command that opens it."""
@@ -164,7 +182,7 @@ class Home:
         """Handle an event."""
         ui = self.painter.ui
         if event.type == pygame.QUIT:
-            self._open = False
+            self._leave()
         elif self._buttons.handle(event):
             pass
         elif event.type == pygame.DROPFILE:
@@ -172,7 +190,8 @@ class Home:
         elif self._search(event):
             pass
         elif event.type == pygame.KEYDOWN:
-            self._press(event)
+            action = action_of(event, HOME)
+            self._actions.get("" if action is None else action.name, lambda: None)()
         elif event.type == pygame.MOUSEWHEEL:
             self.page.scroll(-event.y, ui)
         elif event.type == pygame.MOUSEMOTION:
@@ -198,31 +217,20 @@ class Home:
             self.page.chosen = 0
         return taken
 
-    def _press(self, event: pygame.Event) -> None:
-        steps = {
-            pygame.K_LEFT: (-1, 0), pygame.K_RIGHT: (1, 0), pygame.K_TAB: (1, 0),
-            pygame.K_UP: (0, -1), pygame.K_DOWN: (0, 1),
-        }  # fmt: skip
-        pages = {
-            pygame.K_PAGEUP: -0.9,
-            pygame.K_PAGEDOWN: 0.9,
-            pygame.K_HOME: -99,
-            pygame.K_END: 99,
-        }
-        control = event.mod & (pygame.KMOD_CTRL | pygame.KMOD_META)
-        if event.key in steps:
-            self.page.move(*steps[event.key])
-        elif event.key in pages:
-            self.page.turn(pages[event.key])
-        elif event.key in (pygame.K_RETURN, pygame.K_KP_ENTER) and self.page.card is not None:
-            others = [*self.page.card.others.values()]
-            self._choose(others[-1] if others and event.mod & pygame.KMOD_SHIFT else None)
-        elif event.key == pygame.K_F11:
-            self.looks.actions["screen"]()
-        elif control and event.key in (pygame.K_q, pygame.K_w):
-            self._open = False
-        elif event.key == pygame.K_ESCAPE:
+    def _watch(self) -> None:
+        """Close with the other command of the chosen card, if it has one."""
+        others = [] if self.page.card is None else [*self.page.card.others.values()]
+        self._choose(others[-1] if others else None)
+
+    def _escape(self) -> None:
+        """Close the help, or forget what was typed."""
+        if self.help.is_open:
+            self.help.close()
+        else:
             self.search.clear()
+
+    def _leave(self) -> None:
+        self._open = False
 
     def _choose(self, command: tuple[str, ...] | None = None) -> None:
         """Close with the chosen card, or with a command of one of its buttons."""

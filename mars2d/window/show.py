@@ -64,7 +64,7 @@ def show_experiment(
         if drivers or play:
             window.play(drivers[:MOST_PEOPLE])
         else:
-            window.say_who_stands_still()
+            window.director.say_who_stands_still()
         try:
             window.run()
         except Mars2dError as error:

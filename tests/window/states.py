@@ -98,7 +98,7 @@ def of_run(window):
     seen = window.grab.shown(frame)
     bar, slider = window._controls.time_bar, window._controls.slider
     banner = window._ending.banner()
-    scopes, plots = window.scopes, window.scopes._plots
+    scopes, plots = window.dock.scopes, window.dock.scopes._plots
     corner = scopes._place.topleft
     return {
         "time": round(frame.time, 3),
@@ -127,7 +127,7 @@ def of_run(window):
         "origin": [round(window.camera.x, 1), round(window.camera.y, 1)],
         "layers": {layer.name: layer.name in window.layers.on for layer in LAYERS},
         "text": window.looks.text,
-        "dark": window._painter.theme.dark,
+        "dark": window.looks.painter.theme.dark,
         "help": window.help.page,
         "notes": [note.text for note in window.notes._notes],
         "said": window.said,
@@ -137,12 +137,12 @@ def of_run(window):
         "menu": {title: at.center for title, at in window.toolbar.menu.places.items()},
         "chosen": window.toolbar.menu.chosen,
         "closes": {name: place.center for name, place in window.dock.closes.items()},
-        "scopes": {trace.name: [*trace.bodies] for trace in window.scopes.traces},
+        "scopes": {trace.name: [*trace.bodies] for trace in window.dock.scopes.traces},
         "areas": {each.signal.name: [*each.area.move(corner)] for each in plots},
         "panels": {name: [*plate] for name, plate in window.dock.plates.items()},
         "plot": [*window.layout.plot],
-        "sliders": sliders_of(window.parameters) if window.parameters.is_open else {},
-        "predictions": predictions_of(window._predictions),
+        "sliders": sliders_of(window.dock.parameters) if window.dock.parameters.is_open else {},
+        "predictions": predictions_of(window.dock.predictions),
         "filming": window.saver._film is not None,
         "game": None if window.game is None else game_of(window),
         "editor": None if window.editor is None else of_editor(window.editor),
@@ -177,7 +177,7 @@ def game_of(window):
         "counting": game.counting > 0,
         "seats": [seat.robot for seat in game.seats],
         "result": None if game.result is None else game.result.words,
-        "choices": {title: at.center for title, at in window._before.menu.places.items()},
+        "choices": {title: at.center for title, at in window.countdown.menu.places.items()},
         "panel": [*window.dock.plates.get("score", ())],
     }
 

@@ -54,7 +54,7 @@ def test_a_drawing_that_takes_long_is_not_waited_for_by_another_one():
 )  # fmt: skip
 def test_the_run_of_a_drawing_says_what_stands_still(robots, said, tmp_path):
     window = window_of(Scenario(robots=robots), tmp_path / "room.toml")
-    window.say_who_stands_still()
+    window.director.say_who_stands_still()
     assert [note.text for note in window.notes._notes] == ([] if said is None else [said])
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pygame
-import pytest
 
 from mars2d import Robot, Scenario, Unicycle, World
 from mars2d.output.raster.camera import Camera
@@ -59,14 +58,6 @@ def test_a_body_that_moves_is_followed_smoothly():
     late = pixels[300:]
     assert np.abs(late - PLOT.center).max() < 10
     assert np.abs(np.diff(late, axis=0)).max() < 0.01, "it stays where it is on the screen"
-
-
-def test_who_zooms_meanwhile_keeps_what_was_chosen():
-    follow, camera = Follow(0), START
-    camera, _ = followed(follow, camera, [(0.0, 0.0)] * 200, 1 / 60)
-    camera, pixels = followed(follow, camera.zoomed((900, 300), 2.0), [(0.0, 0.0)] * 200, 1 / 60)
-    assert camera.scale == pytest.approx(120)
-    np.testing.assert_allclose(pixels[-1], PLOT.center, atol=0.1)
 
 
 def test_a_team_that_gathers_is_looked_at_from_nearer_up_to_a_bound():

@@ -1,6 +1,7 @@
 """The mouse on the picture: what it is over, what it pulls, puts elsewhere and turns."""
 
 from math import pi
+from types import SimpleNamespace
 
 import numpy as np
 import pygame
@@ -18,7 +19,8 @@ from mars2d.window.run.grab import Grab
 from tests.cases import each_case
 
 LEFT, RIGHT = pygame.BUTTON_LEFT, pygame.BUTTON_RIGHT
-CTRL = pygame.KMOD_LCTRL
+pytestmark = pytest.mark.usefixtures("keyboard")
+
 CAMERA = Camera(100.0, 300.0, 200.0)
 
 SCENARIO = Scenario(
@@ -32,12 +34,19 @@ SCENARIO = Scenario(
 
 
 class Person:
-    """Somebody with a mouse before a world; time stands still or passes."""
+    """Somebody with a mouse before a world, in which time stands still or passes."""
 
-    def __init__(self, scenario=SCENARIO, running=False, recording=False):
-        self.world, self.running, self.recording = World(scenario), running, recording
-        self.said, self.now = [], 0.0
-        self.grab = Grab(self.change, self.said.append, clock=lambda: self.now)
+    def __init__(self, scenario=SCENARIO, playing=False, recording=False):
+        self.world, self.playing, self.recording = World(scenario), playing, recording
+        self.said, self.clicked, self.now = [], [], 0.0
+        self.grab = Grab(
+            self, SimpleNamespace(camera=CAMERA), [], lambda pixel: pixel, self.change,
+            self.said.append, {LEFT: self.clicked.append}, clock=lambda: self.now,
+        )  # fmt: skip
+
+    @property
+    def frame(self):
+        return self.world.frame
 
     def change(self, act):
         if self.recording:
@@ -50,28 +59,27 @@ class Person:
         return tuple(np.rint(CAMERA.to_pixels([(x, y)])[0]).astype(int).tolist())
 
     def move(self, x, y):
-        self.grab.move(self.world.frame, CAMERA, self.pixel(x, y), self.running)
+        self.grab.move(self.pixel(x, y), (0, 0))
 
-    def press(self, x, y, button=LEFT, mods=0):
-        pixel = self.pixel(x, y)
-        return self.grab.press(self.world.frame, CAMERA, pixel, button, mods, self.running)
+    def press(self, x, y, button=LEFT):
+        self.grab.press(self.pixel(x, y), button)
+        return self.grab.busy
 
     def release(self, x, y):
-        return self.grab.release(self.world.frame, CAMERA, self.pixel(x, y), self.running)
+        self.grab.release(self.pixel(x, y), LEFT)
 
-    def wait(self, steps, camera=CAMERA):
+    def wait(self, steps):
         """Let time pass, with a picture at each step."""
         for _ in range(steps):
-            self.grab.tick(self.world.frame, camera, self.running)
+            self.grab.tick()
             self.world.step()
             self.now += 0.1
 
     def shown(self):
-        return self.grab.shown(self.world.frame)
+        return self.grab.shown(self.frame)
 
     def marks(self, kind):
-        shapes = self.grab.marks(self.shown(), CAMERA)
-        return [shape for shape in shapes if isinstance(shape, kind)]
+        return [shape for shape in self.grab.marks(self.shown()) if isinstance(shape, kind)]
 
     def words(self):
         return [text.text for text in self.marks(Text)]
@@ -98,11 +106,12 @@ def test_it_shows_what_it_is_over_and_its_name(place, over, words):
 
 @each_case("running", [True, False])
 def test_a_click_is_left_to_others_and_changes_nothing(running):
-    person = Person(running=running)
+    person = Person(playing=running)
     assert person.press(0, 0)
     assert person.grab.busy
     person.move(0.02, 0.0)
-    assert not person.release(0.02, 0.0)  # no more than a click
+    person.release(0.02, 0.0)
+    assert person.clicked == [pytest.approx((0.02, 0.0), abs=0.01)]
     assert not person.grab.busy
     assert person.world.operator.log == []
 
@@ -111,7 +120,7 @@ def test_a_click_is_left_to_others_and_changes_nothing(running):
 
 
 def test_a_drag_pulls_a_robot_to_the_pointer_and_a_line_shows_how_strongly():
-    person = Person(running=True)
+    person = Person(playing=True)
     assert person.press(0.05, 0.0)
     person.move(0.0, -1.0)
     person.wait(2)
@@ -120,18 +129,19 @@ def test_a_drag_pulls_a_robot_to_the_pointer_and_a_line_shows_how_strongly():
     assert float(label.removesuffix(" N")) > 1
     person.wait(20)
     assert person.world.pose[:2, 0] == pytest.approx((0, -1), abs=0.06)
-    assert person.release(0.0, -1.0)
+    person.release(0.0, -1.0)
+    assert person.clicked == []
     assert person.world.operator.pulls == ()
     person.wait(3)
-    assert person.grab.marks(person.world.frame, CAMERA) != []  # it is over the robot
+    assert person.grab.marks(person.frame) != []  # it is over the robot
 
 
 def test_once_time_stands_still_it_lets_go():
-    person = Person(running=True)
+    person = Person(playing=True)
     person.press(0, 0)
     person.move(0.0, -1.0)
-    person.running = False
-    person.grab.tick(person.world.frame, CAMERA, running=False)
+    person.playing = False
+    person.grab.tick()
     assert person.world.operator.pulls == ()
     assert not person.grab.busy
 
@@ -150,7 +160,7 @@ def test_the_pull_wins_against_drives_and_floors_and_stays_bounded():
 
 @each_case("physics", ["stop", "ideal"])
 def test_where_no_forces_act_it_says_what_to_do_instead_once_a_drag(physics):
-    person = Person(SCENARIO.replace(physics=physics), running=True)
+    person = Person(SCENARIO.replace(physics=physics), playing=True)
     person.press(0, 0)
     person.move(0.0, -0.5)
     person.move(0.0, -0.6)
@@ -162,7 +172,7 @@ def test_where_no_forces_act_it_says_what_to_do_instead_once_a_drag(physics):
 
 
 def test_in_a_recording_nothing_is_pulled_and_the_drag_ends():
-    person = Person(running=True, recording=True)
+    person = Person(playing=True, recording=True)
     person.press(0, 0)
     person.move(0.0, -0.5)
     person.move(0.0, -0.6)
@@ -181,7 +191,7 @@ def test_a_drag_shows_a_body_elsewhere_and_puts_it_there_when_it_ends():
     assert person.world.prop_pose[:, 0].tolist() == [-1, 0, 0]
     assert person.shown().leaps[-1][0] == person.world.iteration, "no path leads there"
     assert person.words() == ["(\N{MINUS SIGN}1.00, \N{MINUS SIGN}1.00) m"]
-    assert person.release(-1.05, -1.0)
+    person.release(-1.05, -1.0)
     assert person.world.prop_pose[:, 0].tolist() == pytest.approx([-1, -1, 0])
     assert person.shown().prop_pose[:, 0].tolist() == pytest.approx([-1, -1, 0])
     assert [type(i).__name__ for i in person.world.operator.log] == ["Place"]
@@ -190,11 +200,10 @@ def test_a_drag_shows_a_body_elsewhere_and_puts_it_there_when_it_ends():
 def test_where_it_can_not_stay_this_is_said_in_red_and_it_springs_back():
     person = Person()
     person.press(0, 0)
-    person.now = 1.0
     person.move(0.9, 0.0)
     assert person.words() == ["would overlap blue"]
     assert drags.BAD in {ring.stroke for ring in person.marks(Circle)}
-    assert person.release(0.9, 0.0)
+    person.release(0.9, 0.0)
     assert person.said == ["red can't be put there: it would overlap blue"]
     assert person.shown().pose[:, 0].tolist() == [0, 0, 0]
 

@@ -5,7 +5,7 @@ import pygame
 import pytest
 
 from mars2d import Robot, Scenario
-from mars2d.core.scene import Circle, Text
+from mars2d.core.scene import Circle, Scene, Text
 from mars2d.output.layers.forces import in_newtons
 from mars2d.scenario.experiment import Experiment
 from mars2d.window.run.heat import MOST, heat, squeezes
@@ -40,7 +40,8 @@ def test_above_thirty_contacts_colours_stand_for_arrows_and_the_pointer_reads_ne
     frame = crowd.frame
     assert len(frame.contacts) > MOST
     hottest = int(squeezes(frame).argmax())
-    scene = heat(frame)
+    scene = Scene()
+    heat(scene, frame)
     discs = [s for s in scene.shapes if isinstance(s, Circle) and s.fill is not None]
     assert np.hypot(*(discs[-1].center - frame.pose[:2, hottest])) < 1e-9, "the hottest is on top"
     assert sum(isinstance(shape, Text) for shape in scene.shapes) == 5
@@ -48,12 +49,12 @@ def test_above_thirty_contacts_colours_stand_for_arrows_and_the_pointer_reads_ne
     window.layers = window.layers.switched(forces=True)
     surface = pygame.Surface((1280, 720), 0, 32)
     window.draw(surface)
-    assert window._crowded
+    assert window._arena._crowded
     pixel = tuple(window.camera.to_pixels([frame.pose[:2, hottest]])[0].astype(int).tolist())
-    window.grab.move(frame, window.camera, pixel, running=False)
+    window.grab.move(pixel, (0, 0))
     said = in_newtons(float(squeezes(frame)[hottest]))
-    marks = window.grab.marks(frame, window.camera, more=said)
+    marks = window.grab.marks(frame, more=said)
     assert f"robot{hottest}  {said}" in [each.text for each in marks if isinstance(each, Text)]
     window.layers = window.layers.switched(forces=False)
     window.draw(surface)
-    assert not window._crowded
+    assert not window._arena._crowded

@@ -10,6 +10,7 @@ from mars2d.scenario.examples import examples, games
 from mars2d.window.home import Home
 from mars2d.window.screen.display import Preferences
 from mars2d.window.screen.memory import Memory
+from tests.window.written import Pens, Written
 
 SIZES = [(640, 480), (800, 600), (1024, 768), (1280, 720), (1920, 1080)]
 
@@ -134,7 +135,7 @@ def test_a_file_that_is_dropped_opens_and_another_one_is_told_of(memory, tmp_pat
     assert home.choice == ("run", str(tmp_path / "walk.py"))
 
 
-def test_the_buttons_change_colours_and_text(memory):
+def test_buttons_and_keys_change_colours_and_text_and_f1_tells_them(memory):
     home, surface = shown(memory)
     before = pygame.surfarray.array3d(surface).mean()
     for name in ("dark", "text"):
@@ -143,6 +144,19 @@ def test_the_buttons_change_colours_and_text(memory):
     home.draw(surface)
     assert pygame.surfarray.array3d(surface).mean() < 0.5 * before
     assert home.looks.text == TEXT_SIZES[1]
+    press(home, pygame.K_d, pygame.KMOD_LCTRL)
+    press(home, pygame.K_z, pygame.KMOD_LCTRL)
+    assert (home.painter.theme.dark, home.looks.text) == (False, TEXT_SIZES[2])
+    press(home, pygame.K_F1)
+    written = Written((1280, 720))
+    home.painter.fonts = Pens()
+    home.draw(written)
+    told = {"Ctrl D", "Ctrl Z", "Shift Enter", "F11", "Ctrl Q"}
+    assert told <= set(written.texts)
+    press(home, pygame.K_ESCAPE)
+    assert not home.help.is_open
+    press(home, pygame.K_w, pygame.KMOD_LCTRL)
+    assert not home._open
 
 
 # -- memory ---------------------------------------------------------------------------------------

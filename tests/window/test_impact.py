@@ -16,12 +16,12 @@ def test_the_keys_of_contacts_open_the_card_of_what_the_touch_did():
     window = Window(Playback(mars2d.run(scenario)), 1.0, (900, 700), Preferences())
     surface = pygame.Surface((900, 700))
     window.draw(surface)
-    assert not window._impact.is_open
+    assert not window.dock.impact.is_open
     window._actions["contact"]()
-    assert window._impact.is_open
+    assert window.dock.impact.is_open
     window.draw(surface)
     assert "impact" in window.dock.plates
-    (rows,) = window._impact._cards(window.player.frame)
+    (rows,) = window.dock.impact._cards(window.player.frame)
     table = {label: numbers for label, *numbers in rows}
     assert table[""] == ["a", "b", "both"]
     assert table["before, along [m/s]"] == ["1", "0", "1 nearer"]
@@ -30,5 +30,5 @@ def test_the_keys_of_contacts_open_the_card_of_what_the_touch_did():
     assert table["momentum before [N s]"] == table["momentum after"] == ["", "", "(1, 0)"]
     assert table["restitution"] == ["", "", "1"]
     window._actions["contact_back"]()
-    assert window._impact._cards(window.player.frame) == []
+    assert window.dock.impact._cards(window.player.frame) == []
     window.draw(surface)

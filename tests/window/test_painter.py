@@ -1,14 +1,9 @@
 """What is painted lies where it should, in its colour, with soft edges; without any display."""
 
-from dataclasses import replace
-from types import SimpleNamespace
-
 import numpy as np
 import pygame
 import pytest
 
-from mars2d import Robot, Scenario, World
-from mars2d.bodies.props import Box
 from mars2d.core.errors import InputError
 from mars2d.core.scene import Scene, wake_style
 from mars2d.output.layers.table import Layers
@@ -184,25 +179,6 @@ def test_while_the_camera_moves_a_slow_picture_is_enlarged_and_then_drawn_anew(m
     assert differing(fresh, fine) == 0
 
 
-def test_while_the_camera_moves_an_enlarged_picture_is_never_older_than_a_quarter_of_a_second(
-    monkeypatch,
-):
-    clock = SimpleNamespace(now=10.0)
-    monkeypatch.setattr("mars2d.output.raster.stage.PATIENCE", -1.0)
-    monkeypatch.setattr("mars2d.output.raster.stage.perf_counter", lambda: clock.now)
-    stage, surface = Stage(Painter()), pygame.Surface((640, 480), 0, 32)
-    now, ages = frame(), []
-    camera = Camera.fit(now.scenario.bounds, (640, 480), (20, 20, 20, 20))
-    for _ in range(60):
-        stage.draw(surface, now, camera, Layers(), surface.get_rect(), hurried=True)
-        if stage._canvas.camera.scale == camera.scale:
-            drawn = clock.now
-        ages.append(clock.now - drawn)
-        clock.now += 1 / 60
-        camera = camera.zoomed((320, 240), 1.01)
-    assert 0.2 < max(ages) <= 0.25 + 1 / 60
-
-
 # -- arrows and forces ----------------------------------------------------------------------------
 
 
@@ -219,38 +195,3 @@ def test_an_arrow_goes_from_its_tail_to_its_tip_with_its_width(tip):
     assert covered[shaft].sum() / 5 == pytest.approx(3.0, abs=0.7)
     head = (at > 10 * np.hypot(*tip) - 11) & (at < 10 * np.hypot(*tip) - 8)
     assert covered[head].sum() / 3 > 6.0
-
-
-def pressed(row=5, **changes):
-    source = Circling(circling_scenario(**changes), pressed=True)
-    source.row = row
-    return source.frame
-
-
-def count(surface, color):
-    return int((pixels(surface) == color).all(axis=2).sum())
-
-
-FORCE, SLIP = (0xA3, 0x00, 0x3C), (0xFF, 0xC2, 0x0A)
-
-
-def test_forces_are_off_unless_they_are_asked_for():
-    plain = paint_frame(pressed())
-    assert count(plain, FORCE) == count(plain, SLIP) == 0
-    shown = paint_frame(pressed(), forces=True)
-    assert count(shown, FORCE) > 200
-    assert count(shown, SLIP) > 100
-    animated = pressed(animation=Animation(forces=True))
-    assert differing(paint_frame(animated), shown) == 0
-    assert differing(paint_frame(animated, forces=False), plain) == 0
-
-
-def test_props_have_trails_if_they_moved():
-    scenario = Scenario(robots=[Robot(pose=(-4, -4, 0))], props=[Box(pose=(0, 0, 0))])
-    frame, path = World(scenario).frame, np.zeros((50, 3, 1))
-    path[:, 0, 0] = np.linspace(-3, 2, 50)
-    moved = replace(frame, path=np.repeat(frame.pose[None], 50, axis=0), prop_pose=path[-1])
-    artist = Artist()
-    still, again = artist.paint(moved), artist.paint(moved)
-    assert differing(again, still) == 0, "no path, no trail"
-    assert differing(artist.paint(replace(moved, prop_path=path)), still) > 200

@@ -133,8 +133,8 @@ def test_a_run_changed_by_hand_has_no_predictions_and_a_new_start_has(tmp_path):
 def test_after_a_slider_r_runs_again_with_its_value_and_predicts(open_window):
     window = open_window(0, experiment="push_box")
     window.press("F3", "Right")
-    panel = window.shown._predictions
-    window.shown.parameters._set("mu", 0.4)
+    panel = window.shown.dock.predictions
+    window.shown.dock.parameters._set("mu", 0.4)
     window.settle()
     assert "R: again with mu = 0.4, and predict." in panel._words()
     window.press("r", "Right")

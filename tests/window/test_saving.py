@@ -9,8 +9,7 @@ from PIL import Image
 
 from mars2d import InputError
 from mars2d.output.films.filming import FPS, Filming, film_suffix
-from mars2d.window.screen.saving import Saver, free_name, saved
-from mars2d.window.widgets.notes import Notes
+from mars2d.window.screen.saving import free_name, saved
 from tests.cases import each_case
 
 SIZE = (160, 120)
@@ -59,28 +58,10 @@ def test_names_are_numbered_and_made_at_once(tmp_path):
     assert free_name(tmp_path, "x" * 500, ".py").name == f"{'x' * 60}_1.py"
 
 
-def test_a_folder_that_cannot_be_written_is_told_in_words(tmp_path):
-    with pytest.raises(InputError, match="nowhere: no file can be made here, No such file"):
-        free_name(tmp_path / "nowhere", "walk", ".png")
-
-
 def test_a_file_that_cannot_be_written_leaves_nothing_behind(tmp_path):
     with pytest.raises(InputError, match="full"):
         saved(tmp_path, "walk", ".csv", lambda path: (_ for _ in ()).throw(InputError("full")))
     assert not list(tmp_path.iterdir())
-
-
-def test_pictures_are_kept_beside_others(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "walk_1.png").write_text("mine")
-    notes = Notes()
-    saver = Saver(notes, "walk")
-    saver.picture(painted("red"))
-    assert (tmp_path / "walk_1.png").read_text() == "mine"
-    with Image.open(tmp_path / "walk_2.png") as picture:
-        assert picture.size == SIZE
-        assert picture.getpixel((5, 5)) == (255, 0, 0)
-    assert [note.text for note in notes._notes] == [f"picture: {tmp_path / 'walk_2.png'}"]
 
 
 # -- films ----------------------------------------------------------------------------------------

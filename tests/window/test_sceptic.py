@@ -2,11 +2,8 @@
 
 import os
 
-import numpy as np
 import pytest
 
-from mars2d.addons import Map
-from mars2d.window.editor import Outcome
 from tests.cases import each_case
 
 ROOM = """
@@ -76,46 +73,6 @@ def test_to_look_back_while_pulling_lets_go_and_makes_no_branch(sit, key):
     newest = window.state["newest"]
     window.do("mouseup", 1)
     assert where(window)[1:] == (newest, 0)
-
-
-def test_to_scrub_with_a_driving_key_held_changes_nothing(sit):
-    window = sit()
-    window.until(lambda s: s["row"] == 10)
-    window.press("h")
-    window.do("keydown", "w")
-    window.until(lambda s: s["row"] == 20)
-    first, last, y = window.state["bar"]
-    rows = [last + (first - last) * k / 20 for k in (0, 5, 11, 14)]
-    window.slide(*((x, y) for x in rows))
-    newest = window.state["newest"]
-    assert where(window) == (6, newest, 0)
-    assert newest >= 20
-    window.press("space")  # time passes: now it is driven there
-    window.until(lambda s: s["branches"] == 1)
-
-
-def test_laws_go_on_where_a_wall_is_drawn_in_the_past(sit):
-    window = sit()
-    window.until(lambda s: s["row"] == 30)
-    window.steps(-10)
-    window.press("e")
-    director = window.shown.director
-    drawn = director.scenario_now()
-    wall = Map(walls=[[(2, 1), (2, 1.5)]])
-    row = window.state["row"]
-    outcome = Outcome(drawn.replace(addons=[*drawn.addons, wall]), "now")
-    window.shown.editor.dialogs.outcome = outcome
-    window.shown._close_editor(window.shown.editor)
-    window.picture()
-    assert where(window) == (row, row, 1)
-    window.press("space")
-    window.until(lambda s: s["row"] == row + 6)
-    world = director.timeline.world
-    assert len(world.obstacles) == 1
-    assert world.robots[0].memory.count == world.iteration
-    (before,) = director.timeline.branches
-    seen = row + 6
-    assert np.array_equal(world.history.command[:seen], before.history.command[:seen])
 
 
 def test_what_an_add_on_draws_of_theory_may_fail(sit, tmp_path):

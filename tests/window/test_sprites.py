@@ -63,15 +63,15 @@ class Viewer:
         self.window = Window(Playback(record), 1.0, (1280, 720))
         self.window.player._clock = lambda: 0.0  # it never falls behind, however busy the machine
         if plain:
-            self.window._painter = Painter(kept=0)
-            self.window._stage.painter = self.window._inspector.painter = self.window._painter
-            self.window.dock.painter = self.window._painter
+            self.window.looks.painter = painter = Painter(kept=0)
+            dock = self.window.dock
+            dock.painter = dock.inspector.painter = self.window._arena._stage.painter = painter
         self.plain = plain
         self.size = (1280, 720)
 
     def draw(self):
         self.window.viewpoint._hurry = 0.0  # as after a rest: in motion pictures may be rough
-        self.window._inspector._drawn_at = -1e9
+        self.window.dock.inspector._drawn_at = -1e9
         surface = pygame.Surface(self.size, 0, 32)
         self.window.draw(surface)
         return surface
@@ -107,8 +107,8 @@ def test_what_is_kept_changes_no_pixel(record, situation):
         viewer.play(20, draw=True)
         SITUATIONS[situation](viewer)
         viewer.play(5, draw=True)
-    assert len(kept.window._painter._sprites) > 0
-    assert len(plain.window._painter._sprites) == 0
+    assert len(kept.window.looks.painter._sprites) > 0
+    assert len(plain.window.looks.painter._sprites) == 0
     assert np.array_equal(pixels(kept.draw()), pixels(plain.draw()))
 
 

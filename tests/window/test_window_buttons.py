@@ -1,10 +1,10 @@
 """The buttons and menus of the window, pressed with the mouse."""
 
-import inspect
 import re
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
-import pygame
 import pytest
 
 from mars2d import load, run
@@ -32,21 +32,24 @@ def offered(window, x, y):
     return set(window.until(lambda s: s["menu"])["menu"])
 
 
-def test_time_is_told_by_buttons(open_window):
-    window = open_window(5, rows=60)
-    push(window, "pause")
-    row = window.until(lambda s: not s["playing"])["row"]
-    push(window, "step")
-    window.until(lambda s: s["row"] == row + 1)
-    push(window, "back")
-    window.until(lambda s: s["row"] == row)
-    push(window, "start")
-    window.until(lambda s: s["row"] == 0)
-    push(window, "newest")
-    window.until(lambda s: s["row"] == s["newest"] > 0)
-    push(window, "pause")
-    window.until(lambda s: s["playing"])
-    window.until(lambda s: s["over"])
+def test_each_button_does_what_the_key_of_the_same_label_does(open_window, monkeypatch):
+    window, pressed = open_window(0, experiment="push_box"), []
+    for bar in window.shown.toolbar.bars:
+        for name in bar._actions:
+            act = partial(pressed.append, name)
+            monkeypatch.setitem(bar._actions, name, replace(bar._actions[name], act=act))
+    groups = (*toolbar.TRANSPORT, toolbar.SEE, toolbar.CHANGE, toolbar.SAVE, toolbar.LOOK)
+    names, by_action = [name for group in groups for name in group], keys.ACTIONS
+    for name in names:
+        push(window, name)
+    assert pressed == names
+    labels = {each.name: each.labels[0] for each in by_action}
+    assert [CONTROLS[name].key for name in names] == [labels[name] for name in names]
+
+
+def test_each_entry_is_chosen_by_one_of_these_tests():
+    tests = "".join(path.read_text() for path in Path(__file__).parent.glob("test_window_*.py"))
+    assert {*menus.TITLES.values()} <= set(re.findall(r'choose\(window, "([^"]+)"\)', tests))
 
 
 def test_at_the_end_play_begins_again(open_window):
@@ -87,59 +90,6 @@ def test_buttons_and_keys_zoom_and_follow(open_window):
     window.until(lambda s: s["following"])
 
 
-def test_buttons_drive_draw_and_begin_anew(open_window, room):
-    window = open_window(0, experiment=str(room))
-    push(window, "step")
-    window.until(lambda s: s["row"] == 1)
-    push(window, "restart")
-    window.until(lambda s: s["newest"] == 0)
-    push(window, "branch")
-    window.says("no other branch")
-    push(window, "drive")
-    window.until(lambda s: s["driving"] == 0)
-    push(window, "drive")
-    window.until(lambda s: s["driving"] is None)
-    push(window, "parameters")
-    window.until(lambda s: "parameters" in s["panels"])
-    push(window, "edit")
-    window.until(lambda s: s["editor"] is not None)
-
-
-def test_buttons_save(open_window, tmp_path):
-    window = open_window(0, folder=tmp_path)
-    push(window, "picture")
-    window.until(lambda _: list(tmp_path.glob("*.png")))
-    push(window, "film")
-    window.until(lambda s: s["filming"])
-    push(window, "film")
-    window.until(lambda s: not s["filming"])
-
-
-def test_buttons_change_how_it_looks(open_window, monkeypatch):
-    turned = []
-    monkeypatch.setattr(pygame.display, "toggle_fullscreen", lambda: turned.append(True))
-    window = open_window(0)
-    push(window, "dark")
-    window.until(lambda s: s["dark"])
-    push(window, "text")
-    window.until(lambda s: s["text"] > 1)
-    push(window, "help")
-    window.until(lambda s: s["help"] == 0)
-    window.press("Escape")
-    window.until(lambda s: s["help"] is None)
-    push(window, "screen")
-    window.press("F11")
-    assert len(turned) == 2
-
-
-def test_a_recording_offers_nothing_that_changes_it(open_window, room, tmp_path):
-    path = tmp_path / "run.npz"
-    run(str(room), stop_time=1.0, show=False).save(path)
-    window = open_window(0, record=str(path))
-    assert not {"drive", "edit", "restart", "branch"} & window.state["buttons"].keys()
-    assert offered(window, 1, -1) == {"Follow with the camera", "Plot over time"}
-
-
 def test_a_right_click_opens_what_can_be_done_with_a_body(open_window, room):
     window = open_window(0, experiment=str(room))
     assert "Drive by hand" not in offered(window, 1, -1)  # a crate
@@ -176,38 +126,7 @@ def test_a_right_click_on_the_floor_shows_all_and_undoes(open_window, room):
     window.until(lambda s: s["editor"] is not None)
 
 
-def test_each_button_and_entry_is_pressed_by_one_of_these_tests():
-    here = Path(__file__).parent
-    tests = "".join(path.read_text(encoding="utf-8") for path in here.glob("test_window_*.py"))
-    pushed = set(re.findall(r'push\(window, "(\w+)"\)', tests))
-    groups = (*toolbar.TRANSPORT, toolbar.SEE, toolbar.CHANGE, toolbar.SAVE, toolbar.LOOK)
-    assert {name for group in groups for name in group} == pushed
-    chosen = set(re.findall(r'choose\(window, "([^"]+)"\)', tests))
-    offers = inspect.getsource(menus)
-    assert set(re.findall(r'Entry\(\s*"([^"]+)", ', offers)) <= chosen  # the rest are headings
-
-
-def test_every_button_has_a_key_of_the_same_label():
-    by_action = {each.name: each for each in keys.ACTIONS}
-    groups = (*toolbar.TRANSPORT, toolbar.SEE, toolbar.CHANGE, toolbar.SAVE, toolbar.LOOK)
-    for name in (name for group in groups for name in group):
-        assert CONTROLS[name].key == by_action[name].labels[0], name
-
-
 # -- nothing is lost ------------------------------------------------------------------------------
-
-
-def test_a_run_changed_by_hand_is_kept_when_it_is_started_anew(open_window, room):
-    window = open_window(0, experiment=str(room))
-    window.drag((1, -1), (1.2, 0), (1.5, 0.5))
-    window.until(lambda s: s["props"][0][:2] == pytest.approx([1.5, 0.5], abs=0.05))
-    window.press("Right", "r")
-    window.until(lambda s: s["newest"] == 0 and s["props"][0] == [1, -1, 0])
-    push(window, "branch")
-    window.until(lambda s: s["newest"] == 1)
-    assert window.state["props"][0][:2] == pytest.approx([1.5, 0.5], abs=0.05)
-    window.press("b")
-    window.until(lambda s: s["newest"] == 0 and s["props"][0] == [1, -1, 0])
 
 
 def test_before_a_run_changed_by_hand_is_lost_the_window_asks(open_window, room, tmp_path):
@@ -234,17 +153,12 @@ def test_before_a_run_changed_by_hand_is_lost_the_window_asks(open_window, room,
     assert record.prop_pose[-1, :2, 0] == pytest.approx([1.5, 0.5], abs=0.05)
 
 
-@pytest.mark.parametrize("by", ["key", "menu"])
-def test_asked_twice_to_close_the_window_does(open_window, room, tmp_path, by):
+@pytest.mark.parametrize("again", ["ctrl+q", "Down+Return"])
+def test_asked_twice_to_close_the_window_does(open_window, room, tmp_path, again):
     window = open_window(0, experiment=str(room), asks=True, folder=tmp_path)
-    window.drag((1, -1), (1.2, 0), (1.5, 0.5))
-    window.until(lambda s: s["props"][0][:2] == pytest.approx([1.5, 0.5], abs=0.05))
-    window.press("ctrl+q")
+    window.press("Tab", "w", "Return", "Right", "ctrl+q")
     window.until(lambda s: s["menu"])
-    if by == "key":
-        window.press("ctrl+q")
-    else:
-        choose(window, "Leave without it")
+    window.press(*again.split("+") if again[0] == "D" else [again])
     window.until(lambda s: s.get("left"))
     assert not list(tmp_path.glob("*.npz"))
 
@@ -253,7 +167,7 @@ def test_a_run_that_can_be_run_again_is_not_asked_for(open_window, room):
     window = open_window(0, experiment=str(room), asks=True)
     window.press("Right")
     window.until(lambda s: s["row"] == 1)
-    push(window, "leave")
+    window.ask_to_close()
     window.until(lambda s: s.get("left"))
 
 
@@ -333,7 +247,7 @@ def test_the_lesson_of_a_file_is_shown_by_a_button_and_by_f4(open_window):
     window = open_window(0, experiment="push_box")
     push(window, "lesson")
     window.until(lambda s: "lesson" in s["panels"])
-    parts = dict(window.shown._lesson.parts)
+    parts = dict(window.shown.dock.lesson.parts)
     assert parts[""].startswith("Push a box: it moves when")
     assert parts["Question"].startswith("A robot of mass M drives")
     assert list(parts) == ["", "Question", "Prediction", "Measured"]

@@ -80,17 +80,6 @@ def test_a_drag_that_an_editor_interrupts_is_not_gone_on_with(open_window, room)
     window.until(lambda s: not s["busy"] and s["props"][0] == [1, -1, 0])
 
 
-def test_while_it_runs_a_drag_pulls_until_it_is_let_go(open_window, room):
-    window = open_window(1, experiment=str(room))
-    window.drag((1, -1), (1.2, -0.5), (1.4, 0.8), drop=False)
-    window.until(lambda s: s["pulls"] == 1)
-    window.until(lambda s: s["props"][0][1] > 0.3)
-    window.do("mouseup", 1)
-    window.until(lambda s: s["pulls"] == 0)
-    window.point(*window.settle()["props"][0][:2])
-    window.until(lambda s: s["over_body"] == 2)
-
-
 # -- the editor on a paused run -------------------------------------------------------------------
 
 

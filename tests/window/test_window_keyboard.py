@@ -16,7 +16,7 @@ def test_a_menu_opens_on_what_is_selected_or_on_the_floor(open_window, room):
 def test_sliders_are_reached_and_set_by_keys(open_window, pushing):
     window = open_window(0, experiment=str(pushing))
     window.press("Tab", "Tab", "Tab", "shift+F2")
-    panel = window.shown.parameters
+    panel = window.shown.dock.parameters
     assert panel.is_open
     window.settle()
     assert panel.focus.startswith("props.crate.")
@@ -38,7 +38,7 @@ def test_panels_are_scrolled_by_keys(open_window, tmp_path):
     )
     window = open_window(0, experiment=str(path))
     window.press("F4")
-    lesson = window.shown._lesson
+    lesson = window.shown.dock.lesson
     window.settle()
     assert lesson.cut
     window.press("shift+Next", "shift+Next")
@@ -46,3 +46,14 @@ def test_panels_are_scrolled_by_keys(open_window, tmp_path):
     window.press("shift+Prior", "shift+Prior", "shift+Prior")
     assert window.settle()["row"] == 0, "without Shift they are steps"
     assert lesson.scroll == 0
+
+
+def test_with_a_slider_in_the_hand_the_help_opens_and_escape_closes_it(open_window, pushing):
+    window = open_window(0, experiment=str(pushing), text=2.2)
+    window.press("F2", "Tab", "shift+F2")
+    assert "parameters" not in window.shown.dock._folded, "the sliders come to sight"
+    window.press("F1")
+    window.until(lambda s: s["help"] == 0)
+    window.press("Escape")
+    window.until(lambda s: s["help"] is None)
+    assert window.shown.dock.parameters.focus

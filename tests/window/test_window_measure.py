@@ -28,7 +28,7 @@ def scenario():
 def length(window):
     """What the ruler says."""
     shown, scene = window.shown, Scene()
-    shown._tools.ruler.draw(scene, shown.player.frame, shown.camera, None)
+    shown.tools.ruler.draw(scene, shown.player.frame, shown.camera, None)
     return [shape.text for shape in scene.shapes if isinstance(shape, Text)]
 
 
@@ -47,15 +47,15 @@ def test_a_ruler_lies_between_points_and_bodies_and_moves_with_these(open_window
     window.press("Right")  # red goes ahead
     assert length(window) != ["1.500 m at \N{MINUS SIGN}90.0°"]
     window.press("F8")
-    assert not window.shown._tools.ruler.on
+    assert not window.shown.tools.ruler.on
     window.click(0, 0, button=3)
     choose(window, "Measure from here")
-    assert window.shown._tools.ruler.ends[0] == pytest.approx((0, 0), abs=0.01)
+    assert window.shown.tools.ruler.ends[0] == pytest.approx((0, 0), abs=0.01)
 
 
 def test_a_stopwatch_goes_with_the_time_of_the_run_also_backwards(open_window, room):
     window = open_window(0, experiment=str(room))
-    watch = window.shown._tools.stopwatch
+    watch = window.shown.tools.stopwatch
     window.press("Right", "Right", "F9", "Right", "Right", "Right")
     assert watch.words(window.shown.player.frame.time).startswith("0.300 s   from 0.200 s")
     window.press("Home")
@@ -73,7 +73,7 @@ def test_what_a_law_prints_is_in_the_terminal_and_in_a_panel_the_last_line_first
     path = tmp_path / "walk.py"
     path.write_text(FAILING)
     window = open_window(0, experiment=str(path))
-    printed = window.shown._printed
+    printed = window.shown.dock.printed
     with printed.listening():
         window.press("Right", "Right")
         assert sys.stdout.isatty() in (True, False)  # it is the terminal in all else

@@ -3,17 +3,8 @@
 import pygame
 import pytest
 
-from mars2d import load, run
 from tests.window.person import PUSHING
-
-
-def push(window, button):
-    window.do("mousemove", *window.state["buttons"][button], "click", 1)
-
-
-def choose(window, title):
-    window.until(lambda s: title in s["menu"])
-    window.do("mousemove", *window.state["menu"][title], "click", 1)
+from tests.window.test_window_buttons import choose, push
 
 
 def test_scopes_are_chosen_by_mouse_for_several_bodies(open_window, pushing):
@@ -32,12 +23,6 @@ def test_scopes_are_chosen_by_mouse_for_several_bodies(open_window, pushing):
     window.until(lambda s: s["scopes"]["speed"] == [0, 1, 2])
     choose(window, "Distance to red")
     window.until(lambda s: s["scopes"].get("distance.red") == [2])
-    window.press("Escape")
-    window.until(lambda s: not s["menu"])
-    window.press("Escape")
-    window.press("q")
-    choose(window, "Energy, and what has made it")
-    window.until(lambda s: [*s["scopes"]] == ["speed", "distance.red"])
     window.press("Escape")
     window.until(lambda s: not s["menu"])
     window.do("mousemove", *window.state["closes"]["scopes"], "click", 1)
@@ -87,22 +72,12 @@ def test_the_scopes_of_a_file_are_open_and_follow_when_it_is_edited(open_window,
     window.until(lambda s: "gap" not in s["scopes"])
 
 
-def test_a_recording_has_scopes(open_window, pushing, tmp_path):
-    path = tmp_path / "run.npz"
-    run(str(pushing), stop_time=2.0, show=False).save(path)
-    window = open_window(0, record=str(path))
-    assert len(load(path)) == 21
-    push(window, "scopes")
-    choose(window, "Kinetic energy")
-    window.until(lambda s: "kinetic energy" in s["areas"])
-
-
 def test_keys_show_less_time_and_more_in_the_plots(open_window, pushing):
     window = open_window(0, experiment=str(pushing))
     window.press("q")
     choose(window, "x")
     window.until(lambda s: "x" in s["areas"])
     window.press("Escape", "comma", "comma")
-    assert window.shown.scopes.span == pytest.approx(10 / 1.25**2)
+    assert window.shown.dock.scopes.span == pytest.approx(10 / 1.25**2)
     window.press("period", "period", "period")
-    assert window.shown.scopes.span is None
+    assert window.shown.dock.scopes.span is None

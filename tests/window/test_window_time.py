@@ -4,6 +4,7 @@ import pygame
 import pytest
 
 from tests.window.person import HEADER, PLOT, differing
+from tests.window.test_window_buttons import choose, offered
 
 
 def test_arrows_repeat_when_held(open_window):
@@ -109,19 +110,6 @@ def test_a_change_in_the_past_makes_a_branch_and_b_goes_to_the_other_one(open_wi
     window.until(lambda s: s["newest"] > newest)
 
 
-def test_the_past_is_exact(open_window, room):
-    window = open_window(0, experiment=str(room))
-    window.steps(25)
-    there = window.until(lambda s: s["row"] == 25)["robots"]
-    window.steps(25)
-    later = window.until(lambda s: s["row"] == 50)["robots"]
-    window.press("Next", "Prior")
-    window.steps(-25)
-    assert window.until(lambda s: s["row"] == 25)["robots"] == there
-    window.steps(25)
-    assert window.until(lambda s: s["row"] == 50)["robots"] == later
-
-
 LAW = """
 def ahead(robot):
     if robot.pose[0] > -1.5:
@@ -154,20 +142,6 @@ def test_where_a_law_fails_its_line_is_shown_and_the_past_can_be_looked_at(open_
     window.press("ctrl+q")
     window.until(lambda s: "raised" in s)
     assert "I am lost" in window.state["raised"]
-
-
-def test_a_law_that_is_saved_is_in_effect_from_now_on(open_window, room):
-    window = open_window(1, experiment=str(room))
-    window.until(lambda s: s["time"] > 0.5)
-    room.write_text(room.read_text().replace("return 0.2, 0.0", "return -0.2, 0.0"))
-    window.says("in effect from now on")
-    furthest = window.settle()["robots"][0][0]
-    window.until(lambda s: s["robots"][0][0] < furthest)
-    room.write_text(room.read_text().replace("return -0.2, 0.0", "return -0.2 0.0"))
-    window.says("the old law goes on")
-    row = window.state["row"]
-    window.until(lambda s: s["row"] > row + 3)
-    assert "left" not in window.settle()
 
 
 def test_a_file_with_fewer_robots_starts_anew_whatever_was_selected(open_window, room):
@@ -211,7 +185,9 @@ def test_a_recording_can_be_looked_at_and_says_what_can_not_be_done(open_window,
     window.do("mousemove", round((x0 + x1) / 2), y, "click", 1)
     window.until(lambda s: abs(s["row"] - newest / 2) <= 1)
     robots = window.settle()["robots"]
-    for key in ("h", "e", "b"):
+    changing = {"drive", "edit", "restart", "branch", "parameters"}
+    assert not changing & window.state["buttons"].keys()
+    for key in ("h", "e", "b", "F2"):
         said = window.state["said"]
         window.press(key)
         window.until(lambda s, said=said: s["said"] == said + 1)
@@ -220,7 +196,11 @@ def test_a_recording_can_be_looked_at_and_says_what_can_not_be_done(open_window,
     window.until(lambda s: s["said"] == said + 2)
     assert window.settle()["robots"] == robots
     assert (window.state["driving"], window.state["editor"]) == (None, None)
-    window.press("r")
+    window.press("q")
+    choose(window, "Kinetic energy")
+    window.until(lambda s: "kinetic energy" in s["areas"])
+    assert offered(window, -2, -1) == {"Follow with the camera", "Plot over time"}
+    window.press("Escape", "r")
     window.until(lambda s: s["row"] == 0 or s["playing"])
     assert window.look()[PLOT].mean() > 200
 

@@ -1,5 +1,7 @@
 """The words of a window: the keys that serve now, what is said of a change, none over another."""
 
+from functools import partial
+
 import pygame
 import pytest
 
@@ -25,7 +27,7 @@ def window(monkeypatch):
         source.advance()
     window = Window(source)
     window.player.settle()
-    window._painter.fonts = Pens()
+    window.looks.painter.fonts = Pens()
     pygame.display.init()
     yield window
     pygame.display.quit()
@@ -71,7 +73,7 @@ def plates(monkeypatch):
 def test_no_panel_covers_a_legend(window, plates):
     do(window, "forces", "select")
     window.dock.open(["parameters", "scopes"])
-    window.scopes.switch("speed", (0, 1))
+    window.dock.scopes.switch("speed", (0, 1))
     for size, text in [((1024, 768), 1.7), (SMALL, 1.0), (LARGE, 1.0)]:
         plates.clear()
         words(window, size, text)
@@ -87,7 +89,7 @@ def test_the_inspector_leaves_the_arena_to_one_who_drives(window):
         for size, text in ((SMALL, 1.7), (LARGE, 1.0), ((470, 470), 1.0)):
             words(window, size, text)
             shown[drives, size] = place = window.dock.plates.get("inspector")
-            arena = window._seen_arena(window.player.frame)
+            arena = window.viewpoint.seen
             assert not (drives and place and place.colliderect(arena))
         do(window, "drive")
     assert shown[False, (470, 470)]
@@ -149,7 +151,36 @@ def test_legends_lie_beside_the_workspace_where_there_is_room(window, plates):
         for _ in range(2):
             plates.clear()
             words(window, (1920, 1080))
-        arena = window._seen_arena(window.player.frame)
+        arena = window.viewpoint.seen
         assert plates
         assert arena.collidelist(plates) == -1, selects
         do(window, "select")
+
+
+@each_case("text", [1.0, 1.3, 2.2])
+def test_where_there_is_no_room_beside_it_legends_lie_where_no_body_is(plates, text, display):
+    source = Timeline(open_experiment("push_box"))
+    for _ in range(20):
+        source.advance()
+    window = Window(source)
+    window.player.settle()
+    do(window, "select", "predictions")
+    window.dock.scopes.switch("speed", (0, 1))
+    plates.clear()
+    words(window, text=text)
+    bodies = window.camera.to_pixels(window.player.frame.all_poses[:2].T)
+    assert bool(plates) == (text < 2)
+    assert not any(plate.collidepoint(middle) for plate in plates for middle in bodies)
+
+
+def test_panels_that_stood_beside_the_arena_stay_there_when_one_of_them_has_more_to_say(display):
+    window = Window(Timeline(open_experiment("tug_of_war")))
+    plot, everybody = window.dock.scopes.switch, range(5)
+    for opens in (
+        partial(window.dock.open, ["lesson"]), window.dock.impact.open,
+        partial(plot, "speed", (*everybody,)), partial(plot, "x", (*everybody,)),
+        partial(do, window, "select"),
+    ):  # fmt: skip
+        opens()
+        words(window, (1152, 648))
+        assert window.viewpoint.seen.collidelist([*window.dock.plates.values()]) == -1

@@ -591,6 +591,8 @@ def test_the_record_of_a_window_run_is_run_again_to_the_bit(memory, tmp_path):
     assert rerun(record) is None
     assert [rerun(branch) for branch in record.branches] == [None]
     assert record.over_message == record.branches[0].over_message == "The window was closed"
+    assert record.steps == timeline.frame.iteration, "as the window says"
+    assert mars2d.run("push_box", stop_time=0.4).steps == 4, "of one that has come to its end"
     loaded = mars2d.load(record.save(tmp_path / "run.npz"))
     assert rerun(loaded) is None
     assert loaded.branches == ()

@@ -112,7 +112,7 @@ def _as_table(records: Mapping[str, Record]) -> str:
         if mode != "contact":  # less than a micrometre is rounding
             drift = Drift.between(records["contact"], record)
             apart = [f"{round(float(x[-1]), 6):.3g} m" for x in (drift.max, drift.mean)]
-        lines.append([mode, f"{max(len(record) - 1, 0)}", f"{record.collisions}", *apart])
+        lines.append([mode, f"{record.steps}", f"{record.collisions}", *apart])
         ends.append(record.over_message)
     first = records["contact"]
     title = f"{first.scenario.title}, seed {first.seed}"

@@ -77,7 +77,7 @@ def execute(arguments: argparse.Namespace) -> None:
         raise
     _warn_lawless(experiment)
     if not arguments.json:
-        steps = counted(max(len(record) - 1, 0), "step")
+        steps = counted(record.steps, "step")
         done = f"{steps}, {counted(record.collisions, 'collision')}, digest {record.digest[:16]}"
         tell(f"{record.scenario.title}: {one_line(record.over_message)}. {done}")
     if not record.finished:

@@ -111,7 +111,7 @@ def plot_comparison(records: Mapping[str, Rows]) -> Figure:
 
 def _title(ax: Axes, mode: str, record: Rows) -> None:
     """Write the physics, the number of collisions and the end of a run above its panel."""
-    done = f"{counted(record.collisions, COUNTED[mode])}, {counted(len(record) - 1, 'step')}"
+    done = f"{counted(record.collisions, COUNTED[mode])}, {counted(record.steps, 'step')}"
     said = [done, *textwrap.wrap(record.over_message, 44, max_lines=2, placeholder=" …")]
     color, pad = COLORS[mode], 9 + 13 * len(said)
     ax.set_title(mode, loc="left", fontsize=15, color=color, fontweight="bold", pad=pad)

@@ -78,7 +78,9 @@ def plot_paths(record: Rows, ax: Axes | None = None, *, layers: Layers | None = 
     label(ax)
     add_legend(ax, entries, **BESIDE)
     heading = f"{scenario.title}, {_time(float(record.time[-1]))}"
-    ax.set_title(_wrapped(heading, ax), fontsize=points(TITLE), color=INK, parse_math=False)
+    letters = int(ax.get_window_extent().width / ax.figure.dpi * 144 / points(TITLE))
+    title = textwrap.fill(heading, max(20, letters), max_lines=3, placeholder=" …")
+    ax.set_title(title, fontsize=points(TITLE), color=INK, parse_math=False)
     paint_frame(ax, record.frame(-1), layers)
     return ax
 
@@ -294,12 +296,6 @@ def _faint(shape: Shape) -> Shape:
         opacity = int(shape.fill[7:], 16) / 255
         return replace(shape, fill=faded(shape.fill, min(opacity, FAINT_AREA)))
     return replace(shape, stroke=faded(shape.stroke, 0.5)) if isinstance(shape, Line) else shape
-
-
-def _wrapped(title: str, ax: Axes) -> str:
-    """Return a title wrapped to the width of axes."""
-    letters = ax.get_window_extent().width / ax.figure.dpi * 144 / points(TITLE)
-    return textwrap.fill(title, max(20, int(letters)), max_lines=3, placeholder=" …")
 
 
 def _time(seconds: float) -> str:

@@ -70,7 +70,9 @@ def forces(frame: Frame) -> Scene:
     scale = force_scale(scenario)
     drawn = np.flatnonzero(size >= FAINTEST * scale.most)
     drawn = drawn[np.argsort(size[drawn], kind="stable")][-MAX_CONTACTS:]  # the strongest on top
-    at = _touching_points(frame)
+    # A row says where its pair first touched; that point has moved with a since.
+    since = np.clip(frame.time - contacts["time"], 0.0, scenario.sampling_time)
+    at = contacts["point"] + frame.velocity[:2, contacts["a"]].T * since[:, None]
     shorter = shortening(scale.unit * size[drawn], scale.longest)
     reach = scale.unit * shorter[:, None] * force[drawn]
     for start, way, factor, solid in zip(
@@ -93,16 +95,6 @@ def slip_marks(scene: Scene, frame: Frame) -> None:
         center, radius = bounding_circle(frame.scenario.robots[i].chassis, frame.pose[:, i])
         for color, width in ((SLIP_EDGE, 4.5), (SLIP, 2.7)):
             scene.circle(center, radius, stroke=color, width=share * width, pixels=1.5)
-
-
-def _touching_points(frame: Frame) -> Float:
-    """Return where the contacts of a frame are now, (k, 2) metres.
-
-    A row says where its pair first touched during the control step; that point has moved with a.
-    """
-    contacts = frame.contacts
-    since = np.clip(frame.time - contacts["time"], 0.0, frame.scenario.sampling_time)
-    return np.asarray(contacts["point"] + frame.velocity[:2, contacts["a"]].T * since[:, None])
 
 
 def in_newtons(force: float) -> str:

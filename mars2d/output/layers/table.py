@@ -117,8 +117,7 @@ LAYERS: list[Layer] = [
     Layer(name="robots", title="Robots", switch=False, each=place_robot),
     Layer(name="joints", title="Joints", shapes=joints, switch=False),
     Layer(
-        name="velocities", title="Velocities", shapes=velocities, key="u",
-        at_first=lambda _: False,
+        name="velocities", title="Velocities", shapes=velocities, key="u", at_first=lambda _: False,
     ),
     Layer(
         name="impulses", title="Impulses", shapes=impulses, at_first=attrgetter("forces"),

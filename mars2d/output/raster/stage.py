@@ -88,6 +88,7 @@ class Stage:
         self._canvas: Canvas | None = None
         self._scenario: Scenario | None = None
         self._key: tuple[Hashable, ...] = ()  # of what the canvas shows of the scenario
+        self._corner = 0  # where legends are
 
     def draw(
         self,
@@ -135,7 +136,10 @@ class Stage:
         shown = [each for each in legends(frame.scenario) if getattr(layers, each.layer)]
         rooms = free or [plot]
         beside = [strip for room in rooms for strip in self._around(frame.scenario, camera, room)]
-        draw_legends(surface, self.painter, camera, rooms[0], shown, beside)
+        middles = camera.to_pixels(frame.all_poses[:2].T).tolist()
+        self._corner = draw_legends(
+            surface, self.painter, camera, rooms[0], shown, beside, middles, self._corner
+        )
         surface.set_clip(before)
 
     def _around(self, scenario: Scenario, camera: Camera, room: pygame.Rect) -> list[pygame.Rect]:

@@ -68,7 +68,10 @@ class Wakes:
         for body in (*range(robots, bodies), *range(robots)):
             for j, piece in enumerate(np.split(new[:, :, body], sorted(cuts.get(body, ())))):
                 before = piece[:1] if j else self._pens[None, :, body]
-                self._prolong(body, np.concatenate([before, piece]))
+                points, (color, width) = np.concatenate([before, piece]), self._looks[body]
+                kept = points[spaced(points, MIN_GROWTH * self._ui)]  # long enough to be seen
+                hairlines(self.surface, rgba(color)[:3], kept, width)
+                self._pens[:, body] = kept[-1]
         self.drawn, self._ends = rows, _places(frame, [0, rows - 1])
 
     def finish(self, surface: pygame.Surface, frame: Frame) -> None:
@@ -84,13 +87,6 @@ class Wakes:
             if body not in leaping:
                 color, width = self._looks[body]
                 pygame.draw.aaline(surface, color, pen.tolist(), end.tolist(), round(width))
-
-    def _prolong(self, body: int, points: Float) -> None:
-        """Draw a body's path (k, 2) as far as it is long enough to be seen."""
-        kept = points[spaced(points, MIN_GROWTH * self._ui)]
-        color, width = self._looks[body]
-        hairlines(self.surface, rgba(color)[:3], kept, width)
-        self._pens[:, body] = kept[-1]
 
     def _pixels(self, places: Float) -> Float:
         """Return pixels of places (m, 2, bodies), metres."""

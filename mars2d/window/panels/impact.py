@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
-
-import pygame
 
 from mars2d.output.raster.painter import Painter
 from mars2d.record.contact import met
@@ -14,7 +11,7 @@ from mars2d.record.impacts import card
 from mars2d.window.panels.readout import MINUS
 from mars2d.window.panels.rows import Row, RowsPanel
 from mars2d.window.screen.player import Player
-from mars2d.window.widgets.words import Word, write_line
+from mars2d.window.widgets.words import Word
 
 LINE, SIZE = 18.0, 12.5
 """The heights of a line and of its letters, points."""
@@ -44,19 +41,15 @@ class Impact(RowsPanel):
         lines = [line for table in self._cards(frame) for line in table]
         if not lines:
             return [*self.wrapped(LINE, Word(SILENT, self.painter.theme.muted, SIZE), width)]
-        return [Row(LINE, partial(self._draw_line, line)) for line in lines]
+        return [self._line(*line) for line in lines]
 
-    def _draw_line(
-        self, line: tuple[str, str, str, str], surface: pygame.Surface, rect: pygame.Rect
-    ) -> None:
-        """Draw a line of a card; that without a label has the names."""
-        theme, (label, *numbers) = self.painter.theme, line
-        write_line(surface, rect, self.painter, [Word(label, theme.muted, SIZE)])
-        for text, end in zip(numbers, ENDS, strict=True):
-            cell = pygame.Rect(rect.topleft, (round(rect.width * end), rect.height))
-            ink = theme.text if label else theme.ink
-            number = Word(text.replace("-", MINUS), ink, SIZE, not label)
-            write_line(surface, cell, self.painter, [], [number])
+    def _line(self, label: str, *numbers: str) -> Row:
+        """Return a line of a card; that without a label has the names."""
+        theme = self.painter.theme
+        ink = theme.text if label else theme.ink
+        words = (Word(each.replace("-", MINUS), ink, SIZE, not label) for each in numbers)
+        ends = [(end, [word]) for end, word in zip(ENDS, words, strict=True)]
+        return self.line(LINE, [Word(label, theme.muted, SIZE)], ends=ends)
 
     def _cards(self, frame: Frame) -> list[Table]:
         """Return the tables of the touches that began in the control step before a frame."""

@@ -5,13 +5,14 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
+from typing import Any
 
 import pygame
 
 from mars2d.core.description import snake_case
-from mars2d.output.layers.forces import SLIPPING
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
+from mars2d.sensors.base import Sensor
 from mars2d.window.panels.readout import (
     MAX_MESSAGES,
     contacts_of,
@@ -23,8 +24,8 @@ from mars2d.window.panels.readout import (
     state_of,
     touching,
 )
-from mars2d.window.panels.rows import Row, RowsPanel
-from mars2d.window.panels.sensorplot import TITLE, SensorPlot, plot_of
+from mars2d.window.panels.rows import DOT, Row, RowsPanel
+from mars2d.window.panels.sensorplot import rows_of
 from mars2d.window.screen.picking import Selection
 from mars2d.window.widgets.words import Word, write_line
 
@@ -32,12 +33,14 @@ LEAST = 176.0
 """The least height of the inspector, points."""
 GAP = 9.0
 """The gap between two sections, points."""
-HEAD, ROW, LINE = 36.0, 19.0, 17.0
-"""The heights of the name, a row of numbers and a line of text, points."""
-CLOSE = 20.0
-"""The room for the button that closes it, points."""
-LABEL = 80.0
-"""The room for the label of a row, points."""
+HEAD, TITLE, ROW, LINE = 36.0, 21.0, 19.0, 17.0
+"""The heights of the name, a section's title, a row of numbers and a line of text, points."""
+CLOSE = 5 * " "
+"""The room for the button that closes it."""
+SIZE = 12.5
+"""The height of letters where they have room, points."""
+LABEL = 0.22
+"""The room for the label of a row, in parts of the width."""
 
 DRAW_INTERVAL = 1 / 15
 """The shortest time between two drawings while only numbers change, seconds."""
@@ -98,74 +101,53 @@ class Inspector(RowsPanel):
 
     def _made(self, frame: Frame, body: int) -> Iterator[Row]:
         """Yield all sections."""
-        robots, gap = frame.scenario.robots, self.line(GAP)
-        state = [Row(HEAD, partial(self._draw_name, frame, body))]
-        state += [Row(ROW, partial(self._draw_row, *row)) for row in state_of(frame, body)]
-        if body < min(len(robots), len(frame.effort)):
-            effort = float(frame.effort[body])
-            said = "slips" if effort >= SLIPPING else f"{100 * effort:.0f} %"
-            state.append(Row(ROW, partial(self._draw_row, "effort", [("", said)])))
-        yield self.stack(*state, gap)
+        robots, theme = frame.scenario.robots, self.painter.theme
+        dot = Word(DOT, theme.shade(frame.scenario.body_colors[body]), 17)
+        name = Word(str(frame.scenario.bodies[body].name), theme.ink, 17, bold=True)
+        kind = Word(f"{kind_of(frame, body)}{CLOSE}", theme.muted)
+        head = self.line(HEAD, [dot, name], [kind])
+        yield self.stack(head, *map(self._numbers, state_of(frame, body)), self.line(GAP))
         if frame.scenario.physics == "contact":
-            yield self._headed("contacts", " · ".join(contacts_of(frame, body)) or "none")
+            touched = " · ".join(contacts_of(frame, body)) or "none"
             numbers = [*force_of(frame, body), *dynamics_of(frame, body)]
-            yield self.stack(*(Row(ROW, partial(self._draw_row, *row)) for row in numbers), gap)
-        for sensed in sensor_plots(frame, body):
-            kind, key = snake_case(type(sensed.sensor).__name__), sensed.sensor.key
-            drawn = Row(sensed.height, partial(sensed.draw, self.painter))
-            yield self._headed(key, "" if kind == key else kind, drawn)
+            yield self._headed("contacts", touched, *map(self._numbers, numbers))
+        for sensor, reading in readings_of(frame, body):
+            kind_of_it, key = snake_case(type(sensor).__name__), sensor.key
+            drawn = rows_of(self, frame, body, sensor, reading)
+            yield self._headed(key, "" if kind_of_it == key else kind_of_it, *drawn)
         if body < len(robots) and any(each.carries_messages for each in frame.scenario.addons):
             heard = [
                 f"{sender}, {frame.time - sent:.1f} s ago: {rounded(text)}"
                 for sender, sent, text in inbox(frame, body)
             ]
             heard += [""] * (MAX_MESSAGES - len(heard))  # whatever has come
-            words = (self.line(LINE, [Word(each, self.painter.theme.text)]) for each in heard)
+            words = (self.line(LINE, [Word(each, theme.text)]) for each in heard)
             yield self._headed("inbox", "" if heard[0] else "nothing yet", *words)
+
+    def _numbers(self, row: tuple[str, Sequence[tuple[str, str]]]) -> Row:
+        """Return a label and up to three numbers in columns, as large as there is room."""
+        (what, numbers), theme, ui = row, self.painter.theme, self.painter.ui
+        widest = max(self.painter.fonts.width(f"{a}{b}", SIZE * ui) for a, b in numbers)
+
+        def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
+            room = (1 - LABEL) * rect.width / len(numbers) - 14 * ui
+            size = SIZE * min(1.0, room / widest)
+            ends = [
+                (
+                    LABEL + (1 - LABEL) * k / len(numbers),
+                    [Word(name, theme.muted, size), Word(value, theme.ink, size)],
+                )
+                for k, (name, value) in enumerate(numbers, 1)
+            ]
+            self.line(ROW, [Word(what, theme.muted, size)], ends=ends).draw(surface, rect)
+
+        return Row(ROW, draw)
 
     def _headed(self, title: str, more: str, *rows: Row) -> Row:
         """Return a section with a line above it, its title and more at the right."""
         return self.stack(
             Row(TITLE, partial(self._draw_heading, title, more)), *rows, self.line(GAP)
         )
-
-    def _draw_name(
-        self, frame: Frame, body: int, surface: pygame.Surface, rect: pygame.Rect
-    ) -> None:
-        """Draw the name and kind of a body."""
-        ui, theme = self.painter.ui, self.painter.theme
-        center = rect.left + 7 * ui, float(rect.centery)
-        pygame.draw.aacircle(surface, theme.muted, center, 7.5 * ui)
-        pygame.draw.aacircle(
-            surface, theme.shade(frame.scenario.body_colors[body]), center, 6.5 * ui
-        )
-        inset, close = round(22 * ui), round(CLOSE * ui)
-        head = pygame.Rect(rect.left + inset, rect.top, rect.width - inset - close, rect.height)
-        name = Word(str(frame.scenario.bodies[body].name), theme.ink, 17, bold=True)
-        write_line(surface, head, self.painter, [name], [Word(kind_of(frame, body), theme.muted)])
-
-    def _draw_row(
-        self,
-        what: str,
-        numbers: Sequence[tuple[str, str]],
-        surface: pygame.Surface,
-        rect: pygame.Rect,
-    ) -> None:
-        """Draw a label and up to three numbers, in columns if these are wide enough."""
-        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
-        left, gap, y = rect.left + round(LABEL * ui), round(8 * ui), rect.centery
-        column = (rect.right - left) / 3
-        self.painter.write(surface, what, 12.5 * ui, theme.muted, midleft=(rect.left, y))
-        for size in (12.5 * ui, 11.5 * ui, 10.5 * ui):
-            widths = [fonts.width(f"{name} {value}", size) for name, value in numbers]
-            if sum(widths) + gap * (len(widths) - 1) <= rect.right - left:
-                break
-        in_columns = all(width + gap <= column for width in widths[:-1])
-        x = left
-        for place, (name, value) in enumerate(numbers):
-            x = round(left + place * column) if in_columns else x
-            x = self.painter.write(surface, f"{name} ", size, theme.muted, midleft=(x, y)).right
-            x = self.painter.write(surface, value, size, theme.ink, midleft=(x, y)).right + gap
 
     def _draw_heading(
         self, title: str, more: str, surface: pygame.Surface, rect: pygame.Rect
@@ -178,11 +160,11 @@ class Inspector(RowsPanel):
         write_line(surface, rect, self.painter, [Word(title, theme.ink, bold=True)], [at_end])
 
 
-def sensor_plots(frame: Frame, body: int) -> Iterator[SensorPlot]:
-    """Yield the plots of a robot's sensors that have read something."""
+def readings_of(frame: Frame, body: int) -> Iterator[tuple[Sensor, Any]]:
+    """Yield a robot's sensors that have read something, and what they have read."""
     if body >= len(frame.scenario.robots):
         return
     for sensor in frame.scenario.robots[body].sensors:
         for robot, reading in frame.readings.get(sensor.key, ()):
             if robot == body:
-                yield plot_of(frame, body, sensor, reading)
+                yield sensor, reading

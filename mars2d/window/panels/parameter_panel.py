@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from math import floor, log10
-from typing import Literal, NamedTuple
+from typing import Literal
 
 import pygame
 
@@ -26,6 +26,8 @@ from mars2d.window.widgets.words import Word, write_line
 from mars2d.world.timeline import Timeline
 
 Pixel = tuple[int, int]
+Line = tuple[str, Parameter | None]
+"""A heading, or a name in words and its parameter."""
 Say = Literal["info", "error"]
 
 Set = Callable[[str, float, bool], str]
@@ -51,18 +53,6 @@ TYPED = "0123456789.-e"
 """The characters of a number."""
 MAX_TYPED, TYPED_WIDTH = 12, 104.0
 """The longest number that can be typed, and the width of its field, points."""
-
-
-class Line(NamedTuple):
-    """A line of the panel: a heading, or a parameter with its name in words."""
-
-    text: str
-    parameter: Parameter | None = None
-
-    @property
-    def height(self) -> float:
-        """Points."""
-        return HEADING if self.parameter is None else ROW
 
 
 class ParameterPanel(RowsPanel):
@@ -99,7 +89,6 @@ class ParameterPanel(RowsPanel):
         self.said: tuple[str, Say] = "", "info"
         self._held: str | None = None
         self._value = 0.0  # of what is held
-        self._waits = False  # whether it is to be set
         self._anew = ""  # why it needs a new start
         self._next = 0.0  # when it may be set
 
@@ -112,7 +101,7 @@ class ParameterPanel(RowsPanel):
 
     def parameters(self) -> dict[str, Parameter]:
         """Return the parameters by name."""
-        return {line.parameter.name: line.parameter for line in self._look() if line.parameter}
+        return {each.name: each for _, each in self._look() if each is not None}
 
     def _look(self) -> list[Line]:
         """Return the lines; the parameters are read again where something was set or selected."""
@@ -126,11 +115,11 @@ class ParameterPanel(RowsPanel):
             try:
                 self._lines = [] if experiment is None else list(_lines(experiment, body))
             except InputError as error:  # of a Range of a law
-                self._lines, self.said = [Line("No parameters")], (str(error), "error")
+                self._lines, self.said = [("No parameters", None)], (str(error), "error")
             if selected:  # let its sliders be seen
-                heading = max(k for k, line in enumerate(self._lines) if line.parameter is None)
-                self.scroll = sum(line.height for line in self._lines[:heading])
-            if self.focus not in {line.parameter.name for line in self._lines if line.parameter}:
+                heading = max(k for k, (_, each) in enumerate(self._lines) if each is None)
+                self.scroll = _top(self._lines[:heading])
+            if self.focus not in {each.name for _, each in self._lines if each is not None}:
                 self.leave()
         return self._lines
 
@@ -226,13 +215,10 @@ class ParameterPanel(RowsPanel):
             return False
         if name in self.resets and self.resets[name].collidepoint(pixel):
             self._set(name, self.parameters()[name].default)
-            return False
-        if not self._sliders[name].hit(pixel):
-            return False
-        self._held, self._value = name, self.parameters()[name].value
-        self._waits, self._anew, self._next = False, "", self._clock()
-        self._drag(pixel[0])
-        return True
+        elif self._sliders[name].hit(pixel):
+            self._held, self._anew, self._next = name, "", self._clock()
+            self._drag(pixel[0])
+        return self._held is not None
 
     def _drag(self, x: float) -> None:
         """Move the handle that is held to a pixel from the left."""
@@ -240,29 +226,28 @@ class ParameterPanel(RowsPanel):
         parameter = self.parameters().get(self._held)
         if parameter is None:  # the file was saved, and has it no more
             self._held = None
-            return
-        value = parameter.nearest(self._sliders[self._held].value_at(x))
-        if value != self._value:
-            self._value, self._waits = value, True
+        else:
+            self._value = parameter.nearest(self._sliders[self._held].value_at(x))
 
     def tick(self) -> None:
         """While time passes, set the dragged value as often as that is quick; call it often."""
-        if self._held is None or not self._waits or self._anew or not self._player.playing:
-            return
         start = self._clock()
-        if start < self._next:
-            return
-        self._waits = False
-        self._set(self._held, self._value, restart=False)
-        taken = self._clock() - start
-        self._next = start + max(EVERY, taken / SHARE)
+        if self._waits() and not self._anew and self._player.playing and start >= self._next:
+            self._set(self._held or "", self._value, restart=False)
+            taken = self._clock() - start
+            self._next = start + max(EVERY, taken / SHARE)
 
     def _drop(self) -> None:
         """Let go of the handle, and set its value."""
-        assert self._held is not None
-        name, self._held = self._held, None
-        if self._waits or self._anew:
+        waits, name = self._waits(), self._held
+        self._held = None
+        if name is not None and (waits or self._anew):
             self._set(name, self._value)
+
+    def _waits(self) -> bool:
+        """Return whether something is held that has another value yet."""
+        held = self.parameters().get(self._held or "")
+        return held is not None and held.value != self._value
 
     def _set(self, name: str, value: float, *, restart: bool = True) -> None:
         """Set a parameter, and report the effect."""
@@ -274,7 +259,7 @@ class ParameterPanel(RowsPanel):
             self.said = str(error), "error"
             return
         if reason and not restart:
-            self._anew, self._waits = reason, True
+            self._anew = reason
             return
         what = f"{name.removeprefix(PREFIX)} = {_number(parameter, value)}{unit}"
         effect = f"started again: {reason}" if reason else "in effect from now on"
@@ -320,16 +305,14 @@ class ParameterPanel(RowsPanel):
     def focus_on(self, name: str | None) -> None:
         """Let a slider have the focus, and be seen; None: the first, of what is selected."""
         self.leave()
-        names = [line.parameter and line.parameter.name for line in self._look()]
+        names = ["" if each is None else each.name for _, each in self._look()]
         if name is None:
-            last = max((k for k, found in enumerate(names) if found is None), default=0)
+            last = max((k for k, found in enumerate(names) if not found), default=0)
             name = next((found for found in (*names[last:], *names) if found), None)
         self.focus, self.said = name, ("", "info")
-        top = 0.0
-        for line in self._lines:
-            if line.parameter is not None and line.parameter.name == self.focus:
-                self.scroll = min(max(self.scroll, top + ROW - self.room), top)
-            top += line.height
+        if name in names:
+            top = _top(self._lines[: names.index(name)])
+            self.scroll = min(max(self.scroll, top + ROW - self.room), top)
 
     def _take(self, parameter: Parameter) -> None:
         """Set the number that was typed."""
@@ -353,24 +336,20 @@ def _lines(experiment: Experiment, body: int | None) -> Iterator[Line]:
         if parameter.name.startswith(PREFIX):
             above = f"Law {parameter.name.removeprefix(PREFIX).rpartition('.')[0]}"
         if above != heading:
-            yield Line(above)
+            yield above, None
         heading = above
-        yield Line(parameter.name.rpartition(".")[2], parameter)
+        yield parameter.name.rpartition(".")[2], parameter
     if not found:
-        yield Line("No parameters in this file")
+        yield "No parameters in this file", None
     if body is not None:
-        yield Line(experiment.scenario.bodies[body].name)
+        yield str(experiment.scenario.bodies[body].name), None
         for parameter in experiment.parameters(body):
-            yield Line(_short(parameter.name), parameter)
+            yield parameter.name.rpartition(".")[2].replace("_", " "), parameter
 
 
-def _short(name: str) -> str:
-    """Return the last part of the name of a body's field, in words.
-
-    >>> _short("robots.red.drive.max_force")
-    'max force'
-    """
-    return name.rpartition(".")[2].replace("_", " ")
+def _top(lines: Sequence[Line]) -> float:
+    """Return the height of lines, points."""
+    return sum(HEADING if parameter is None else ROW for _, parameter in lines)
 
 
 def _number(parameter: Parameter, value: float) -> str:

@@ -5,18 +5,15 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Sequence
-from functools import partial
 from typing import NamedTuple
-
-import pygame
 
 from mars2d.core.errors import LawError
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.theme import Theme
 from mars2d.record.frame import Frame
 from mars2d.scenario.prediction import SIGNS, Prediction, cells, number, summary
-from mars2d.window.panels.rows import Row, RowsPanel
-from mars2d.window.widgets.words import Word, write_line
+from mars2d.window.panels.rows import DOT, Row, RowsPanel
+from mars2d.window.widgets.words import Word
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
 
@@ -25,12 +22,12 @@ OFTEN = 0.2
 SHARE = 0.04
 """The largest share of the time that `checks` may take."""
 
-TITLES, ROW, LINE = 22.0, 40.0, 17.0
-"""The heights of the columns' titles, of a prediction and of a line of words, points."""
+TITLES, ENDS = ("predicted", "measured", "tolerance"), (0.28, 0.58, 1.0)
+"""The columns, and where they end, in parts of the width."""
+NAME, LINE, GAP = 18.0, 17.0, 6.0
+"""The heights of a name, of a line of words and of the gap below, points."""
 NUMBER = 13.0
 """The height of numbers, points."""
-UNIT, MARK = 58.0, 8.0
-"""The room for a unit, and the diameter of the mark before a name, points."""
 MAX_WORDS = 6
 """The most lines of words about values that could not be read."""
 
@@ -95,10 +92,13 @@ class Predictions(RowsPanel):
     # -- the panel --------------------------------------------------------------------------------
 
     def rows(self, frame: Frame, width: float) -> Sequence[Row]:  # noqa: ARG002
-        """Return the titles of the columns, and a row for each prediction, or why there is none."""
-        found = self.reading.predictions
-        each = [Row(ROW, partial(self._draw_row, prediction)) for prediction in found]
-        return [Row(TITLES, self._draw_titles), *each] if found else self._said(width)
+        """Return the titles of the columns, and two rows for each prediction, or why none."""
+        found, muted = self.reading.predictions, self.painter.theme.muted
+        titles = [
+            (end, [Word(title, muted, 11.5)]) for title, end in zip(TITLES, ENDS, strict=True)
+        ]
+        each = [row for prediction in found for row in self._rows_of(prediction, width)]
+        return [self.line(LINE, ends=titles), *each] if found else self._said(width)
 
     def heights(self, frame: Frame, width: float) -> tuple[float, float]:
         """Return the least and the wanted height; nothing measured yet makes neither lower."""
@@ -114,48 +114,27 @@ class Predictions(RowsPanel):
         color = theme.error.ink if failed else theme.muted
         return [*self.wrapped(LINE, Word(self._words(), color, 12), width, MAX_WORDS)]
 
-    def _columns(self, rect: pygame.Rect) -> list[int]:
-        """Return where the columns of numbers end, pixels from the left."""
-        each = self._column(rect.width)
-        return [round(rect.right - UNIT * self.painter.ui - k * each) for k in (2, 1, 0)]
-
-    def _draw_titles(self, surface: pygame.Surface, rect: pygame.Rect) -> None:
-        size, color = 11.5 * self.painter.ui, self.painter.theme.muted
-        for title, right in zip(
-            ("predicted", "measured", "tolerance"), self._columns(rect), strict=True
-        ):
-            self.painter.write(surface, title, size, color, topright=(right, rect.top))
-
-    def _column(self, width: float) -> float:
-        """Return the width of a column of numbers, pixels, given that of the panel's content."""
-        return (width - UNIT * self.painter.ui) / 3.1
-
-    def _draw_row(self, p: Prediction, surface: pygame.Surface, rect: pygame.Rect) -> None:
-        """Draw a prediction: its name and how it stands, and below that its numbers."""
-        columns = self._columns(rect)
-        ui, theme, painter = self.painter.ui, self.painter.theme, self.painter
+    def _rows_of(self, p: Prediction, width: float) -> list[Row]:
+        """Return a prediction: its name and how it stands, and below that its numbers."""
+        theme = self.painter.theme
         said, color = self._verdict(p, theme)
-        mark = pygame.Rect(rect.left, rect.top + round(3 * ui), round(MARK * ui), round(MARK * ui))
-        painter.panel(surface, mark, color, mark.width / 2)
-        left = mark.right + round(7 * ui)
-        line = pygame.Rect(left, rect.top - round(2 * ui), rect.right - left, round(18 * ui))
-        name, state = Word(p.name, theme.ink, 13), Word(said, color, 12, bold=True)
-        write_line(surface, line, painter, [name], [state])
-        low = rect.top + round(17 * ui)
+        name = [Word(DOT, color, 12), Word(p.name, theme.ink, 13)]
+        head = self.line(NAME, name, [Word(said, color, 12, bold=True)])
         if p.reason:
-            words = painter.fonts.shorten(p.reason, 12 * ui, rect.right - left)
-            painter.write(surface, words, 12 * ui, theme.muted, topleft=(left, low))
-            return
+            return [head, self.line(LINE, [Word(p.reason, theme.muted, 12)]), self.line(GAP)]
+        room = (ENDS[0] * width - 4) * self.painter.ui
         measured = p.measured if math.isfinite(p.measured) else None
-        each = self._column(rect.width) - 8 * ui
-        shown = [self._fitted(value, p.tolerance, each) for value in (p.predicted, measured)]
-        shown[0] = SIGNS[p.bound] + shown[0]
-        for k, (cell, right) in enumerate(zip((*shown, cells(p)[-1]), columns, strict=True)):
-            ink = color if k == 1 and self.reading.finished else theme.text
-            painter.write(surface, cell, NUMBER * ui, ink, bold=k == 1, topright=(right, low))
-        unit = painter.fonts.shorten(p.unit, 12 * ui, (UNIT - 6) * ui)
-        place = columns[-1] + round(6 * ui), low + round(ui)
-        painter.write(surface, unit, 12 * ui, theme.muted, topleft=place)
+        shown = [self._fitted(value, p.tolerance, room) for value in (p.predicted, measured)]
+        numbers = (SIGNS[p.bound] + shown[0], shown[1], cells(p)[-1])
+        inks = (theme.text, color if self.reading.finished else theme.text, theme.text)
+        words = [
+            Word(number, ink, NUMBER, k == 1)
+            for k, (number, ink) in enumerate(zip(numbers, inks, strict=True))
+        ]
+        ends = [(end, [word]) for end, word in zip(ENDS, words, strict=True)]
+        if p.unit:
+            ends[-1][1].append(Word(p.unit, theme.muted, 12))
+        return [head, self.line(LINE, ends=ends), self.line(GAP)]
 
     def _fitted(self, value: float | None, tolerance: float, room: float) -> str:
         """Return a number with the digits that its tolerance needs, or as many as there is room."""

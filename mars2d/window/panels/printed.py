@@ -11,6 +11,7 @@ from typing import Any
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
 from mars2d.window.panels.rows import Row, RowsPanel
+from mars2d.window.screen.player import Player
 from mars2d.window.widgets.words import Word
 
 MOST = 200
@@ -22,16 +23,16 @@ LINE, SIZE, TIME = 17.0, 12.5, 11.5
 class Printed(RowsPanel):
     """Shows the lines that were printed, each with the time of the run.
 
-    time: returns that, seconds. lines: times and texts, the last one first.
+    lines: times [s] and texts, the last one first.
     """
 
     name, title, least, remembered = "printed", "Printed", 6 * LINE, False
 
-    def __init__(self, painter: Painter, time: Callable[[], float]) -> None:
+    def __init__(self, painter: Painter, player: Player) -> None:
         """Start with nothing printed."""
         super().__init__(painter)
         self.lines: deque[tuple[float, str]] = deque(maxlen=MOST)
-        self._time, self._begun = time, ""
+        self._player, self._begun = player, ""
 
     @contextmanager
     def listening(self) -> Iterator[None]:
@@ -43,7 +44,7 @@ class Printed(RowsPanel):
         """Take a text of any length, which may end within a line."""
         *whole, self._begun = f"{self._begun}{text}".split("\n")
         for line in whole:
-            self.lines.appendleft((self._time(), line.rstrip()))
+            self.lines.appendleft((self._player.source.frame.time, line.rstrip()))
 
     def rows(self, frame: Frame, width: float) -> Sequence[Row]:  # noqa: ARG002
         """Return the lines, or that there are none."""

@@ -11,7 +11,7 @@ from mars2d.bodies.drives.base import Drive
 from mars2d.core.description import snake_case
 from mars2d.core.materials import GRAVITY
 from mars2d.core.plane import wrap
-from mars2d.output.layers.forces import in_newtons
+from mars2d.output.layers.forces import SLIPPING, in_newtons
 from mars2d.record.contact import net_forces, pair_forces
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
@@ -58,6 +58,9 @@ def state_of(frame: Frame, body: int) -> list[Row]:
     radius = drive.turning_radius(float(np.hypot(vx, vy)))
     if radius:
         rows.append(("turns", [("least radius", _number(radius, "m"))]))
+    if body < len(frame.effort):
+        effort = float(frame.effort[body])
+        rows.append(("effort", [("", "slips" if effort >= SLIPPING else f"{100 * effort:.0f} %")]))
     return rows
 
 

@@ -12,6 +12,8 @@ from mars2d.record.frame import Frame
 from mars2d.window.widgets.dock import Panel
 from mars2d.window.widgets.words import Word, write_line
 
+DOT = "\N{BLACK CIRCLE}"
+"""A word that stands for a robot, or for how something stands, by its colour."""
 NOTCH, BAR, THUMB = 38.0, 8.0, 4.0
 """How far a notch of the wheel scrolls, the room for the bar that shows where, and its width,
 points."""
@@ -100,11 +102,22 @@ class RowsPanel(Panel):
 
     # -- rows of words --------------------------------------------------------------------------
 
-    def line(self, height: float, left: Sequence[Word] = (), right: Sequence[Word] = ()) -> Row:
-        """Return a row of words from both ends."""
-        return Row(
-            height, lambda surface, rect: write_line(surface, rect, self.painter, left, right)
-        )
+    def line(
+        self,
+        height: float,
+        left: Sequence[Word] = (),
+        right: Sequence[Word] = (),
+        ends: Sequence[tuple[float, Sequence[Word]]] = (),
+    ) -> Row:
+        """Return a row of words from both ends; ends: of columns, in parts of the width."""
+
+        def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
+            write_line(surface, rect, self.painter, left, right)
+            for end, words in ends:
+                column = pygame.Rect(rect.topleft, (round(end * rect.width), rect.height))
+                write_line(surface, column, self.painter, right=words)
+
+        return Row(height, draw)
 
     def wrapped(self, height: float, word: Word, width: float, most: int = 100) -> Iterator[Row]:
         """Yield the lines of a text; most: as many as they are at most."""

@@ -20,6 +20,7 @@ from mars2d.output.signals import Signal, without_nothing
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.panels.trace import Trace, What, span_of
+from mars2d.window.screen.picking import Selection
 from mars2d.window.screen.player import Player
 from mars2d.window.screen.saving import Saver
 from mars2d.window.screen.viewpoint import wheel_notches
@@ -78,22 +79,26 @@ class _Plot(NamedTuple):
 class Scopes(Panel):
     """Plots of columns of the record over all that was run, with the time shown as a cursor.
 
-    player: of the run, which a click in a plot takes to a row. clock: seconds.
+    player: of the run, which a click in a plot takes to a row. selection: the body whose curve lies
+    above a summary of many. clock: seconds.
 
-    traces: what is plotted, one below the other. span: the time shown, seconds; None: all. chosen:
-    the body whose curve lies above a summary of many.
+    traces: what is plotted, one below the other. span: the time shown, seconds; None: all.
     """
 
     name, title, remembered = "scopes", "Scopes", False
 
     def __init__(
-        self, painter: Painter, player: Player, clock: Callable[[], float] = time.perf_counter
+        self,
+        painter: Painter,
+        player: Player,
+        selection: Selection,
+        clock: Callable[[], float] = time.perf_counter,
     ) -> None:
         """Start with the plots that the experiment's file names; else closed."""
         self.painter, self._player, self._clock = painter, player, clock
+        self._selection = selection
         self.traces: list[Trace] = []
         self.span: float | None = None
-        self.chosen: int | None = None
         self._plots: list[_Plot] = []
         self._image: pygame.Surface | None = None
         self._place = pygame.Rect(0, 0, 0, 0)
@@ -197,7 +202,7 @@ class Scopes(Panel):
     def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:
         """Draw the plots, and over them the cursor."""
         ui, theme = self.painter.ui, self.painter.theme
-        of = rect.size, ui, theme, self.span, len(self.traces), frame.scenario, self.chosen
+        of = rect.size, ui, theme, self.span, len(self.traces), frame.scenario, self._selection.body
         interval = max(INTERVAL, self._cost / SHARE)
         late = frame is not self._frame and self._clock() - self._drawn_at >= interval
         if self._image is None or of != self._of or late:
@@ -293,7 +298,9 @@ class Scopes(Panel):
             return range(count)
         each = count // max(len(signal.bodies), 1)
         return [
-            k for k in range(count) if signal.bodies[k // each : k // each + 1] == (self.chosen,)
+            k
+            for k in range(count)
+            if signal.bodies[k // each : k // each + 1] == (self._selection.body,)
         ]
 
     def _colors(self, scenario: Scenario, signal: Signal) -> list[str]:

@@ -7,14 +7,16 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from mars2d.core.errors import InputError, Mars2dError
+from mars2d.core.errors import InputError, Mars2dError, counted
 from mars2d.scenario.changes import alike, carried, check_same, with_poses
+from mars2d.scenario.controllers import standing_still
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.run.driver import ARROWS, LETTERS, Driver
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.player import Player
+from mars2d.window.screen.source import RECORDING
 from mars2d.window.widgets.notes import Notes
 from mars2d.world.past import Progress
 from mars2d.world.timeline import Timeline
@@ -22,8 +24,6 @@ from mars2d.world.world import World
 
 if TYPE_CHECKING:
     from mars2d.window.editor import Editor, Outcome
-
-RECORDING = "this is a recording: it can be looked at, not changed"
 
 
 class Director:
@@ -160,6 +160,11 @@ class Director:
         return tuple(driver.robot for driver in self.drivers if driver.robot is not None)
 
     @property
+    def drives(self) -> bool:
+        """Whether a robot is driven by hand."""
+        return bool(self.driven)
+
+    @property
     def status(self) -> str:
         """The driven robots and their controllers, in words; "" without any."""
         return ", ".join(filter(None, (driver.status for driver in self.drivers)))
@@ -170,11 +175,16 @@ class Director:
         return any(taken)
 
     def drive(self, robot: int) -> None:
-        """Start to drive a robot by hand."""
-        if self._live() is None:
+        """Start to drive a body by hand, if it is a robot."""
+        timeline = self._live()
+        if timeline is None:
+            return
+        scenario = timeline.scenario
+        if robot >= len(scenario.robots):
+            self._notes.say(f"{scenario.bodies[robot].name} has no drive", "warning")
             return
         self.seat((robot,))
-        mine = self._player.source.scenario.robots[robot]
+        mine = scenario.robots[robot]
         turns = ", Q and E turn it" * _turns(mine)
         self._notes.say(
             f"arrow keys or WASD drive {mine.name}{turns}, Shift slowly; H or Esc lets go"
@@ -227,6 +237,22 @@ class Director:
             steer(timeline.world)
         elif passes and any(map(any, commands.values())) and not self.change(steer):
             self.let_go()
+
+    def say_who_stands_still(self) -> None:
+        """Say which robots of a drawn scenario nothing moves, or that nothing moves any."""
+        if self.timeline is None:
+            return
+        experiment, path = self.timeline.experiment, self.timeline.experiment.source.path
+        robots = experiment.scenario.robots
+        idle = standing_still(experiment.scenario, experiment.control)
+        drawn = path is not None and path.suffix == ".toml"
+        all_idle = len(idle) == len(robots) and not experiment.scenario.props
+        if not idle or not (drawn or all_idle):
+            return
+        first, want = next(iter(idle.items()))
+        name, more = robots[first].name, counted(len(idle) - 1, "more robot")
+        stand = f", and {more} stand" if len(idle) > 1 else " stands"
+        self._notes.say(f"{name}{stand} still: {name} lacks {want}", "warning")
 
     # -- drawing ------------------------------------------------------------------------------
 

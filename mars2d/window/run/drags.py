@@ -25,9 +25,6 @@ from mars2d.world.world import World
 Act = Callable[[World], None]
 """Something that is done to a world."""
 
-CHECK_INTERVAL = 0.05
-"""How often a new place is checked for obstacles at most, seconds."""
-
 PULL_ACCELERATION = 10.0
 """How strongly a pull accelerates a body, after it has overcome the resistance, m/s^2."""
 MAX_PULL_SPEED = 5.0
@@ -53,18 +50,39 @@ def pull_of(scenario: Scenario, body: int) -> tuple[float, float]:
     return force, min(speed, MAX_PULL_SPEED)
 
 
-class Pull:
-    """Pulls a body by a spring from the point where it was gripped to the pointer.
+class Drag:
+    """A drag of a body that has begun. do: does something to the world, and returns if it could.
 
     keeps: whether a drag that is cancelled ends as if it were released.
     """
+
+    keeps = False
+
+    def __init__(self, do: Callable[[Act], bool], body: int) -> None:
+        self._do, self.body = do, body
+
+    def move(self, frame: Frame, point: Point) -> None:
+        """Move the pointer to a point [m]."""
+        raise NotImplementedError
+
+    def end(self) -> None:
+        """Release the body."""
+        raise NotImplementedError
+
+    def draw(self, scene: Scene, frame: Frame, camera: Camera) -> None:
+        """Draw what is dragged."""
+        raise NotImplementedError
+
+
+class Pull(Drag):
+    """Pulls a body by a spring from the point where it was gripped to the pointer."""
 
     keeps = True
 
     def __init__(
         self, do: Callable[[Act], bool], scenario: Scenario, body: int, grip: Point, target: Point
     ) -> None:
-        self.body, self._do = body, do
+        super().__init__(do, body)
         self.grip, self.target = within(scenario.bodies[body], grip), target
         self.force, self.speed = pull_of(scenario, body)
         self.newtons = 0.0
@@ -86,9 +104,6 @@ class Pull:
         if self._world is not None and not self._world.over:
             self._world.operator.pull(self.body, self.grip, None)
 
-    def pose(self, frame: Frame) -> Triple | None:
-        """Return None: the body is shown where it is."""
-
     def draw(self, scene: Scene, frame: Frame, camera: Camera) -> None:
         """Draw the spring and its force."""
         start = world_point(frame.body_pose(self.body), self.grip)
@@ -98,33 +113,22 @@ class Pull:
         for point in (start, self.target):
             scene.circle(point, 0.0, fill=FORCE, stroke=HALO, width=1.5, pixels=3.5)
         if self.newtons > 0.005:
-            place = self.target[0], self.target[1] + 9 / camera.scale
-            text = in_newtons(self.newtons)
-            scene.text(place, text, color=FORCE, size=LABEL, anchor="above", halo=HALO)
+            draw_words(scene, camera, self.target, in_newtons(self.newtons))
 
 
-class Placement:
+class Placement(Drag):
     """Moves a body while time stands still, or turns it; at the end it gets its new pose.
 
-    turns: whether it is turned towards the pointer. clock: seconds.
+    turns: whether it is turned towards the pointer. now: the pose at the pointer.
     """
 
-    keeps = False
-
     def __init__(
-        self,
-        do: Callable[[Act], bool],
-        clock: Callable[[], float],
-        frame: Frame,
-        body: int,
-        point: Point,
-        *,
-        turns: bool,
+        self, do: Callable[[Act], bool], frame: Frame, body: int, point: Point, *, turns: bool
     ) -> None:
-        self.body, self._do, self._clock, self._turns = body, do, clock, turns
+        super().__init__(do, body)
+        self._turns = turns
         self.before = self.now = frame.body_pose(body)
         self._start = self._pointer = point
-        self._fault, self._checked, self._at = "", -1.0, self.before
 
     def move(self, frame: Frame, point: Point) -> None:  # noqa: ARG002
         """Move the body by as much as the pointer, or turn it there the shorter way round."""
@@ -136,29 +140,17 @@ class Placement:
         else:
             self.now = x + point[0] - self._start[0], y + point[1] - self._start[1], theta
 
-    def pose(self, frame: Frame) -> Triple | None:  # noqa: ARG002
-        """Return the pose at the pointer."""
-        return self.now
-
     def end(self) -> None:
         """Place the body, if its pose has changed."""
         if self.now != self.before:
             self._do(lambda world: world.operator.place(self.body, self.now))
 
-    def fault(self, frame: Frame) -> str:
-        """Return why the body can't stay here, "" if it can."""
-        now = self._clock()
-        if self._at != self.now and now - self._checked >= CHECK_INTERVAL:
-            self._checked, self._at = now, self.now
-            poses = with_pose(frame, self.body, self.now).all_poses
-            self._fault = obstruction(frame.scenario, poses, self.body)
-        return self._fault
-
     def draw(self, scene: Scene, frame: Frame, camera: Camera) -> None:
-        """Draw the former place, and the new one with its fault."""
-        fault, scenario, n = self.fault(frame), frame.scenario, len(frame.scenario.robots)
-        color = BAD if fault else GOOD
+        """Draw the former place, and the new one with why the body can't stay there."""
+        scenario, n = frame.scenario, len(frame.scenario.robots)
         there = with_pose(frame, self.body, self.now)
+        fault = obstruction(scenario, there.all_poses, self.body)
+        color = BAD if fault else GOOD
         draw_ring(scene, there, self.body, color, 2.5)
         words = f"would {fault}" if fault else self.words()
         draw_label(scene, there, camera, self.body, words, color, "below")  # names are above
@@ -220,6 +212,12 @@ def within(rigid: Rigid, point: Point) -> Point:
 
 
 # -- marks ------------------------------------------------------------------------------------
+
+
+def draw_words(scene: Scene, camera: Camera, point: Point, text: str) -> None:
+    """Write a text about a force above its tip."""
+    place = point[0], point[1] + 9 / camera.scale
+    scene.text(place, text, color=FORCE, size=LABEL, anchor="above", halo=HALO)
 
 
 def draw_ring(

@@ -68,8 +68,6 @@ class Driver:
         self._stick = Stick()
         self._controllers: dict[int, pygame.joystick.JoystickType] = {}
         self._dealt: list[int | None] = []  # the controllers in turn; None: one was plugged out
-        self._axes: dict[int, Stick] = {}
-        self._hats: dict[int, Stick] = {}
 
     # -- who ------------------------------------------------------------------------------------
 
@@ -119,7 +117,7 @@ class Driver:
             self._held.clear()
             self._slow = False
             return False
-        return self._controller(event)
+        return event.type in (pygame.JOYAXISMOTION, pygame.JOYHATMOTION)
 
     def command(self, drive: Drive, dt: float) -> tuple[float, ...]:
         """Return the command of the driven robot; dt: since the last one, seconds.
@@ -139,20 +137,19 @@ class Driver:
         return Stick(*(share * sum(part) for part in zip(*ways, strict=True)))
 
     @property
-    def _own(self) -> list[int | None]:
+    def _own(self) -> list[int]:
         """The controllers of this person."""
-        return self._dealt[self._place :: self._of]
+        return [each for each in self._dealt[self._place :: self._of] if each is not None]
 
     @property
     def _of_controllers(self) -> Stick:
-        ways = [*self._axes.items(), *self._hats.items()]
-        held = [way for which, way in ways if which in self._own]
+        held = [self._tilt(self._controllers[each]) for each in self._own]
         stick = max(held, key=lambda stick: abs(stick.across) + abs(stick.ahead), default=Stick())
         return stick._replace(turn=max((way.turn for way in held), key=abs, default=0.0))
 
     @property
     def _by_controller(self) -> bool:
-        return any(each is not None for each in self._own) and not self._held
+        return bool(self._own) and not self._held
 
     # -- keys -----------------------------------------------------------------------------------
 
@@ -177,8 +174,7 @@ class Driver:
             return
         gone = event.instance_id
         self._dealt = [None if each == gone else each for each in self._dealt]
-        for known in (self._controllers, self._axes, self._hats):
-            known.pop(gone, None)
+        self._controllers.pop(gone, None)
 
     def _add(self, number: int) -> None:
         controller = pygame.joystick.Joystick(number)
@@ -190,24 +186,12 @@ class Driver:
             self._dealt.append(None)
         self._dealt[self._dealt.index(None)] = which
 
-    def _controller(self, event: pygame.Event) -> bool:
-        if event.type == pygame.JOYAXISMOTION:
-            if event.axis in (ACROSS, AHEAD):
-                self._tilt(event.instance_id)
-            return True
-        if event.type == pygame.JOYHATMOTION:
-            across, ahead = event.value
-            cross = Stick(turn=across) if self._turns else Stick(across, ahead)
-            self._hats[event.instance_id] = cross
-            return True
-        return False
-
-    def _tilt(self, which: int) -> None:
-        """Read the left stick of a controller."""
-        controller = self._controllers.get(which)
-        if controller is None:
-            return
-        stick = Stick(controller.get_axis(ACROSS), -controller.get_axis(AHEAD)).within()
-        out = (stick.across**2 + stick.ahead**2) ** 0.5
-        share = 0.0 if out <= DEAD_ZONE else (out - DEAD_ZONE) / (1 - DEAD_ZONE) / out
-        self._axes[which] = Stick(share * stick.across, share * stick.ahead)
+    def _tilt(self, controller: pygame.joystick.JoystickType) -> Stick:
+        """Return where the left stick of a controller is, or its cross."""
+        across, ahead = controller.get_hat(0) if controller.get_numhats() else (0, 0)
+        if self._turns or not (across or ahead):
+            turn, stick = float(across), Stick(*map(controller.get_axis, (ACROSS, AHEAD))).within()
+            out = (stick.across**2 + stick.ahead**2) ** 0.5
+            share = 0.0 if out <= DEAD_ZONE else (out - DEAD_ZONE) / (1 - DEAD_ZONE) / out
+            return Stick(share * stick.across, -share * stick.ahead, turn if self._turns else 0.0)
+        return Stick(across, ahead)

@@ -8,12 +8,7 @@ import numpy as np
 
 from mars2d.core.scene import Scene, faded
 from mars2d.output.layers.bodies import bounding_circle
-from mars2d.output.layers.forces import (
-    FORCE,
-    force_scale,
-    in_newtons,
-    slip_marks,
-)
+from mars2d.output.layers.forces import FORCE, force_scale, in_newtons, slip_marks
 from mars2d.record.contact import mean_forces
 from mars2d.record.frame import Float, Frame
 
@@ -39,9 +34,9 @@ def squeezes(frame: Frame) -> Float:
     return total
 
 
-def heat(frame: Frame) -> Scene:
-    """Return a disc over each body, the redder the harder it is squeezed, and who slips."""
-    scene, total = Scene(), squeezes(frame)
+def heat(scene: Scene, frame: Frame) -> None:
+    """Draw a disc over each body, the redder the harder it is squeezed, and who slips."""
+    total = squeezes(frame)
     slip_marks(scene, frame)
     hottest = HOTTEST * force_scale(frame.scenario).most
     order = [body for body in np.argsort(total).tolist() if total[body] > 0.01 * hottest]
@@ -53,4 +48,3 @@ def heat(frame: Frame) -> Scene:
     for body in order[-LABELED:]:
         words, place = in_newtons(float(total[body])), frame.body_pose(body)[:2]
         scene.text(place, words, color=FORCE, size=12, anchor="above", halo="#ffffff")
-    return scene

@@ -112,14 +112,43 @@ MOUSE = (
 GROUPS: Mapping[str, Sequence[Action]] = {"Time": TIME, "See": SEE, "Do": DO, "Mouse": MOUSE}
 """All of them, in the groups of the help."""
 
+HOME = (
+    Action("search", "search by letters that are typed", ("A to Z",)),
+    Action("choose", "choose a card", ("← → ↑ ↓",)),
+    Action("right", labels=("→",), also=("Tab",), repeats=True),
+    Action("left", labels=("←",), repeats=True),
+    Action("up", labels=("↑",), repeats=True),
+    Action("down", labels=("↓",), repeats=True),
+    Action("turn_back", "further up", ("PgUp",), also=("Home",), repeats=True),
+    Action("turn_on", "further down", ("PgDn",), also=("End",), repeats=True),
+    Action("open", "open the chosen card; a game: play it", ("Enter",)),
+    Action("watch", "watch a game that laws play", ("Shift Enter",)),
+    _action("dark", "Ctrl D", "dark or light"),
+    _action("text", "Ctrl Z", "size of text and lines: for the back row"),
+    _action("screen", "F11", "full screen on and off"),
+    _action("help", "F1", "all keys on and off"),
+    _action("escape", "Esc", "close the help, or forget what was typed"),
+    LEAVE,
+)
+"""The actions of the home."""
+
 _BY_NAME = {action.name: action for action in ACTIONS}
 
 
+def key_of(name: str) -> str:
+    """Return the label of an action's key; "" without one."""
+    return _BY_NAME[name].labels[0] if name in _BY_NAME else ""
+
+
 def bound(
-    names: Iterable[str], acts: Mapping[str, Callable[[], None]], on: Callable[[str], bool]
+    names: Iterable[str],
+    acts: Mapping[str, Callable[[], None]],
+    on: Callable[[str], bool],
+    table: Iterable[Action] = ACTIONS,
 ) -> list[Action]:
     """Return the actions of some names with their effects; on: whether one's setting is on."""
-    return [replace(_BY_NAME[name], act=acts[name], on=partial(on, name)) for name in names]
+    known = {action.name: action for action in table}
+    return [replace(known[name], act=acts[name], on=partial(on, name)) for name in names]
 
 
 class Keyboard:

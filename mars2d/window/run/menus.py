@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from math import dist
 
@@ -14,16 +14,28 @@ from mars2d.output.layers.table import LAYERS, Layers
 from mars2d.record.frame import Frame
 from mars2d.window.panels.scopes import Scopes
 from mars2d.window.panels.trace import FEW, What
+from mars2d.window.run.keys import key_of
 from mars2d.window.widgets.menu import Entry
 
 Actions = Mapping[str, Callable[[], None]]
 
+TITLES = {
+    "follow": "Follow with the camera", "scopes": "Plot over time", "drive": "Drive by hand",
+    "push": "Push with a force ...", "fit": "Show all", "stopwatch": "Stopwatch",
+    "printed": "Show what is printed", "edit": "Draw walls and more",
+    "undo": "Undo what was done by hand", "figure": "Save the plots as a figure",
+}  # fmt: skip
 MOTION = {"Speed": "speed", "x": "x", "y": "y", "Heading": "theta"}
 CONTACT = {"Contact force": "force", "Contact impulse": "impulse"}
 DYNAMICS = {"Kinetic energy": "kinetic", "Momentum": "momentum.each"}
 OF_ALL = {"Energy, and what has made it": "energy", "Momentum, of all": "momentum"}
 NEAREST = 5
 """The most bodies whose distance is offered: the nearest."""
+
+
+def entries_of(names: Iterable[str], actions: Actions) -> list[Entry]:
+    """Return an entry for each action of some names."""
+    return [Entry(TITLES[name], actions[name], key_of(name)) for name in names]
 
 
 def layer_entries(layers: Layers, switch: Callable[..., None]) -> list[Entry]:
@@ -40,16 +52,9 @@ def layer_entries(layers: Layers, switch: Callable[..., None]) -> list[Entry]:
 
 def entries_of_body(frame: Frame, body: int, actions: Actions, *, live: bool) -> list[Entry]:
     """Return what can be done with the selected body; live: whether the run can be changed."""
-    entries = [
-        Entry(str(frame.scenario.bodies[body].name)),
-        Entry("Follow with the camera", actions["follow"], "L"),
-        Entry("Plot over time", actions["scopes"], "Q"),
-    ]
-    if live and body < len(frame.scenario.robots):
-        entries.append(Entry("Drive by hand", actions["drive"], "H"))
-    if live:
-        entries.append(Entry("Push with a force ...", actions["push"], "W"))
-    return entries
+    drives = ("drive",) if body < len(frame.scenario.robots) else ()
+    names = ("follow", "scopes", *((*drives, "push") if live else ()))
+    return [Entry(str(frame.scenario.bodies[body].name)), *entries_of(names, actions)]
 
 
 def entries_of_place(
@@ -59,19 +64,13 @@ def entries_of_place(
 
     measure: begins to measure there. live: whether the run can be changed.
     """
-    entries = [
+    names = ("stopwatch", "printed", *(("edit", "undo") if live else ()))
+    return [
         Entry(f"({point[0]:.3g}, {point[1]:.3g}) m"),
-        Entry("Show all", actions["fit"], "F"),
-        Entry("Measure from here", lambda: measure(point), "F8"),
-        Entry("Stopwatch", actions["stopwatch"], "F9"),
-        Entry("Show what is printed", actions["printed"], "F6"),
+        *entries_of(["fit"], actions),
+        Entry("Measure from here", lambda: measure(point), key_of("ruler")),
+        *entries_of(names, actions),
     ]
-    if live:
-        entries += [
-            Entry("Draw walls and more", actions["edit"], "E"),
-            Entry("Undo what was done by hand", actions["undo"], "Ctrl Z"),
-        ]
-    return entries
 
 
 def entries_of_leaving(save: Callable[[], None], leave: Callable[[], None]) -> list[Entry]:
@@ -79,12 +78,14 @@ def entries_of_leaving(save: Callable[[], None], leave: Callable[[], None]) -> l
     return [
         Entry("This run was changed by hand, and is not saved"),
         Entry("Save it, and leave", save),
-        Entry("Leave without it", leave, "Ctrl Q"),
+        Entry("Leave without it", leave, key_of("leave")),
         Entry("Stay", lambda: None, "Esc"),
     ]
 
 
-def entries_of_scopes(frame: Frame, body: int | None, scopes: Scopes) -> list[Entry]:
+def entries_of_scopes(
+    frame: Frame, body: int | None, scopes: Scopes, actions: Actions
+) -> list[Entry]:
     """Return the quantities to plot of a body, an index of `Scenario.bodies`, or of all robots."""
     scenario = frame.scenario
     bodies = tuple(range(len(scenario.robots))) if body is None else (body,)
@@ -93,7 +94,7 @@ def entries_of_scopes(frame: Frame, body: int | None, scopes: Scopes) -> list[En
     def entry(title: str, what: What, of: tuple[int, ...]) -> Entry:
         return Entry(title, partial(scopes.switch, what, of), "", scopes.shows(what, of))
 
-    entries = [Entry(who)]
+    entries = [*entries_of(["figure"] if scopes.is_open else [], actions), Entry(who)]
     entries += [entry(title, what, bodies) for title, what in _columns(frame, body).items()]
     entries.append(Entry("All bodies"))
     entries += [entry(title, what, ()) for title, what in OF_ALL.items()]

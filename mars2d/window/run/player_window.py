@@ -7,7 +7,8 @@ import time
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from functools import partial
-from math import inf
+from itertools import combinations
+from math import dist, inf
 from threading import Lock
 
 import pygame
@@ -15,11 +16,14 @@ import pygame
 from mars2d.core.deadline import Deadline, patience
 from mars2d.core.interrupt import give_up
 from mars2d.output.layers.table import LAYERS, Layers
+from mars2d.output.raster.bars import footer_height
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.layout import Layout
 from mars2d.window.run import keys
 from mars2d.window.run.controls import Controls
+from mars2d.window.run.ending import Ending
 from mars2d.window.run.menus import layer_entries
+from mars2d.window.run.mouse import Mouse
 from mars2d.window.run.toolbar import Toolbar
 from mars2d.window.screen.display import PICTURES_A_SECOND, Preferences, started_display
 from mars2d.window.screen.looks import Looks
@@ -32,6 +36,8 @@ from mars2d.window.widgets.actions import label_of
 from mars2d.window.widgets.help import Help
 from mars2d.window.widgets.notes import Notes
 
+NAME = 20.0
+"""How far bodies are apart at the start where their names are drawn at first, points."""
 ZOOM = 2.0
 """How far a key zooms, in notches of the wheel."""
 THEIRS = ("sensors", "messages", "neighbours", "theory", "addons")
@@ -43,10 +49,11 @@ class PlayerWindow(ABC):
 
     title: of the window. size: at first, points. stem: the name of saved files, without a number.
 
-    A subclass makes `viewpoint` and `toolbar`.
+    A subclass makes `viewpoint`, `mouse` and `toolbar`.
     """
 
     viewpoint: Viewpoint
+    mouse: Mouse
     toolbar: Toolbar
 
     def __init__(
@@ -67,6 +74,7 @@ class PlayerWindow(ABC):
         self.looks = Looks(preferences, self.notes.say)
         self.saver = Saver(self.notes, stem)
         self._controls = Controls(self.player, marked or source)
+        self._ending = Ending(self.player)
         self._keyboard, self._rest = keys.Keyboard(), Rest()
         self._open = False
         self._passing = False  # whether laws may be asked
@@ -201,6 +209,20 @@ class PlayerWindow(ABC):
 
     # -- drawing --------------------------------------------------------------------------------
 
+    def _layout(self, size: tuple[int, int]) -> Layout:
+        """Return the layout on a surface of this size."""
+        looks = self.looks
+        banner = self._ending.banner()
+        height = footer_height(banner, size, looks.painter, looks.text, looks.scale)
+        return looks.layout(size, height, controls=True)
+
+    def _leave_out_names(self, ui: float) -> None:
+        """Draw no names at first where bodies are so near that these would cover each other."""
+        places = [body.pose[:2] for body in self.player.source.scenario.bodies]
+        apart = min((dist(*pair) for pair in combinations(places, 2)), default=inf)
+        fits = apart * self.camera.scale > NAME * ui
+        self.layers = self.layers.switched(names=self.layers.names and fits)
+
     @property
     def _pointer(self) -> tuple[int, int] | None:
         """Where the mouse is, if it is on the open window."""
@@ -230,9 +252,9 @@ class PlayerWindow(ABC):
     def _take(self, event: pygame.Event) -> bool:
         """Give an event to the parts of the window; return whether one of them took it."""
 
-    @abstractmethod
     def _point(self, event: pygame.Event) -> None:
-        """Handle an event of the mouse on the picture."""
+        """Handle an event of the mouse on the picture and the bars."""
+        self.mouse.handle(event)
 
     def _press(self, event: pygame.Event) -> None:
         action = self._keyboard.press(event)

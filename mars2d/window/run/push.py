@@ -6,7 +6,6 @@ import re
 from collections.abc import Callable, Iterable
 from math import atan2, cos, degrees, dist, hypot, radians, sin
 
-from mars2d.bodies.rigid import Triple
 from mars2d.core.errors import InputError, shown
 from mars2d.core.plane import Point
 from mars2d.core.scene import Scene
@@ -18,9 +17,10 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.window.run.drags import (
     GOOD,
     HALO,
-    LABEL,
     Act,
+    Drag,
     draw_ring,
+    draw_words,
     pull_of,
     within,
     world_point,
@@ -41,45 +41,34 @@ def stiffness_of(scenario: Scenario, body: int) -> float:
     return pull_of(scenario, body)[0] / (REACH * max(xmax - xmin, ymax - ymin))
 
 
-class Aim:
-    """Aims a push from the point where a body was gripped to the pointer; the end lets it act.
-
-    keeps: a drag that is cancelled does nothing.
-    """
-
-    keeps = False
+class Aim(Drag):
+    """Aims a push from the point where a body was gripped to the pointer; the end lets it act."""
 
     def __init__(
         self, do: Callable[[Act], bool], scenario: Scenario, body: int, grip: Point
     ) -> None:
-        self.body, self._do = body, do
+        super().__init__(do, body)
         self.grip = within(scenario.bodies[body], grip)
-        self.newtons = self.angle = 0.0
+        self.force: Point = (0.0, 0.0)
         self._stiffness = stiffness_of(scenario, body)
 
     def move(self, frame: Frame, point: Point) -> None:
         """Aim at a point."""
         start = world_point(frame.body_pose(self.body), self.grip)
-        self.newtons = float(f"{self._stiffness * dist(start, point):.2g}")
-        self.angle = atan2(point[1] - start[1], point[0] - start[0])
+        newtons = float(f"{self._stiffness * dist(start, point):.2g}")
+        angle = atan2(point[1] - start[1], point[0] - start[0])
+        self.force = newtons * cos(angle), newtons * sin(angle)
 
     def end(self) -> None:
         """Push."""
-        if self.newtons:
-            self._do(lambda world: world.operator.push(self.body, self._force, SECONDS, self.grip))
-
-    @property
-    def _force(self) -> Point:
-        return self.newtons * cos(self.angle), self.newtons * sin(self.angle)
-
-    def pose(self, frame: Frame) -> Triple | None:
-        """Return None: the body is shown where it is."""
+        if any(self.force):
+            self._do(lambda world: world.operator.push(self.body, self.force, SECONDS, self.grip))
 
     def draw(self, scene: Scene, frame: Frame, camera: Camera) -> None:
         """Draw the force that it would be."""
         draw_ring(scene, frame, self.body, GOOD, 2.0)
-        if self.newtons:
-            draw_pushes(scene, frame, [Push(0, self.body, self.grip, self._force, SECONDS)], camera)
+        if any(self.force):
+            draw_pushes(scene, frame, [Push(0, self.body, self.grip, self.force, SECONDS)], camera)
 
 
 def draw_pushes(scene: Scene, frame: Frame, pushes: Iterable[Push], camera: Camera) -> None:
@@ -90,9 +79,7 @@ def draw_pushes(scene: Scene, frame: Frame, pushes: Iterable[Push], camera: Came
         length = stiffness_of(frame.scenario, push.body)
         tip = start[0] + x / length, start[1] + y / length
         scene.arrow(start, tip, fill=FORCE, width=3.0, stroke=HALO)
-        place = tip[0], tip[1] + 9 / camera.scale
-        text = f"{in_newtons(newtons)} for {push.duration:g} s"
-        scene.text(place, text, color=FORCE, size=LABEL, anchor="above", halo=HALO)
+        draw_words(scene, camera, tip, f"{in_newtons(newtons)} for {push.duration:g} s")
 
 
 def pushed(text: str, heading: float) -> tuple[Point, float]:

@@ -39,9 +39,9 @@ class Reload:
     def __init__(self, timeline: Timeline, progress: Progress = lambda _: True) -> None:
         """Start to watch the files."""
         self._timeline, self._progress = timeline, progress
-        self._next = self._since = 0.0  # when to look again; when files last changed
-        self._stamps: dict[Path, Stamp | None] = {}
-        self._read_stamps = self._stamps
+        self._next = 0.0  # when to look again
+        self._stamps: dict[Path, Stamp | None] = {}  # as they were seen last
+        self._read_stamps = self._stamps  # as they were read
         self._adopt()
 
     def poll(self, now: float) -> Reloaded | None:
@@ -52,27 +52,21 @@ class Reload:
         if self._timeline.experiment is not self._experiment:  # it was restarted
             self._stamps = {}
             self._adopt()
-        if now < self._next or not self._stamps:
+        if now < self._next:
             return None
-        self._next = now + INTERVAL
-        stamps = {path: _stamp(path) for path in self._stamps}
+        stamps, self._next = {path: _stamp(path) for path in self._read_stamps}, now + INTERVAL
         if stamps != self._stamps:
-            self._stamps, self._since, self._changed = stamps, now, True
-        if not self._changed:
+            self._stamps, self._next = stamps, now + REST  # until it has come to rest
             return None
-        if now - self._since < REST:
-            self._next = self._since + REST
-            return None
-        self._changed = False
-        if gone := [path.name for path, stamp in stamps.items() if stamp is None]:
-            return Reloaded(f"{', '.join(gone)} is gone: the run goes on with what it was")
-        others = [path.name for path in stamps if stamps[path] != self._read_stamps[path]]
+        changed = [path for path in stamps if stamps[path] != self._read_stamps[path]]
         self._read_stamps = stamps
-        return self._read(", ".join(others)) if others else None
+        if gone := [path.name for path in changed if stamps[path] is None]:
+            return Reloaded(f"{', '.join(gone)} is gone: the run goes on with what it was")
+        return self._read(", ".join(path.name for path in changed)) if changed else None
 
     def waits(self) -> bool:
         """Return whether a file was saved that has not been read yet."""
-        return any(_stamp(path) != stamp for path, stamp in self._stamps.items())
+        return any(_stamp(path) != stamp for path, stamp in self._read_stamps.items())
 
     def _adopt(self) -> None:
         """Watch the files of the timeline's experiment."""
@@ -80,7 +74,7 @@ class Reload:
         self._watch(self._experiment.source.written)
 
     def _watch(self, files: Iterable[Path]) -> None:
-        known, self._changed = self._stamps, False
+        known = self._stamps
         self._stamps = {p: known[p] if p in known else _stamp(p) for p in sorted(files)}
         self._read_stamps = self._stamps
 

@@ -9,15 +9,13 @@ import pygame
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
 from mars2d.scenario.roles import roles_of
-from mars2d.window.panels.rows import Row, RowsPanel
+from mars2d.window.panels.rows import DOT, Row, RowsPanel
 from mars2d.window.run.play import NEXT, Play, Seat
 from mars2d.window.widgets.help import draw_cap
-from mars2d.window.widgets.words import Word, write_line
+from mars2d.window.widgets.words import Word
 
 TIME, ROW, LINE, KEYS, WORDS, GAP = 34.0, 24.0, 18.0, 36.0, 32.0, 8.0
 """The heights of the time left, a row, a line of text, keys, who has won, and gaps, points."""
-DOT = 11.0
-"""The diameter of a robot's dot, points."""
 SMALL, SIZE, LARGE = 13.0, 15.0, 22.0
 """The heights of letters, points."""
 MAX_LINES = 3
@@ -77,9 +75,9 @@ class ScorePanel(RowsPanel):
         """Yield a role, who plays it, its points, and for each person the keys and the aim."""
         theme, contest = self.painter.theme, self.play.contest
         role, by, points = about
-        words = Word(role, theme.ink, SIZE, bold=True), Word(by, theme.muted, SMALL)
-        color = theme.shade(frame.scenario.colors[robot])
-        yield self._dotted(words, [Word(points, theme.ink, SIZE, bold=True)], color)
+        dot = Word(DOT, theme.shade(frame.scenario.colors[robot]), SIZE)
+        words = dot, Word(role, theme.ink, SIZE, bold=True), Word(by, theme.muted, SMALL)
+        yield self.line(ROW, words, [Word(points, theme.ink, SIZE, bold=True)])
         for seat in seats:
             yield self._keys(seat.keys)
             if contest is not None and seat.role:
@@ -107,19 +105,6 @@ class ScorePanel(RowsPanel):
         yield from self.wrapped(LINE, Word(text, self.painter.theme.text, SMALL), width, most)
 
     # -- drawing ------------------------------------------------------------------------------
-
-    def _dotted(self, left: Sequence[Word], right: Sequence[Word], color: str) -> Row:
-        """Return a line of words behind a dot of a colour."""
-        painter = self.painter
-
-        def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
-            side, inset = round(DOT * painter.ui), round((DOT + 8) * painter.ui)
-            dot = pygame.Rect(rect.left, rect.centery - side // 2, side, side)
-            painter.panel(surface, dot, color, side / 2)
-            rest = pygame.Rect(rect.left + inset, rect.top, rect.width - inset, rect.height)
-            write_line(surface, rest, painter, left, right)
-
-        return Row(ROW, draw)
 
     def _keys(self, keys: tuple[str, ...], does: str = "") -> Row:
         """Return the caps of keys, and what they do."""

@@ -5,61 +5,42 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pygame
 
-from mars2d.core.errors import Mars2dError, counted
+from mars2d.core.errors import Mars2dError
 from mars2d.core.plane import Point
-from mars2d.core.scene import Scene
-from mars2d.output.layers.forces import in_newtons
 from mars2d.output.layers.table import Layers
-from mars2d.output.raster.bars import Banner, Status, draw_footer, draw_header, footer_height
-from mars2d.output.raster.layout import Layout, fitted
+from mars2d.output.raster.bars import Status, draw_footer, draw_header
+from mars2d.output.raster.layout import fitted
 from mars2d.output.raster.picture import arena_of, summary
-from mars2d.output.raster.stage import Stage
 from mars2d.record.frame import Frame
-from mars2d.record.interventions import Intervention, pushes_at
-from mars2d.scenario.controllers import standing_still
 from mars2d.scenario.examples import experiment_name
-from mars2d.window.panels.impact import Impact
-from mars2d.window.panels.inspector import Inspector
-from mars2d.window.panels.lesson import Lesson
-from mars2d.window.panels.parameter_panel import ParameterPanel
-from mars2d.window.panels.predictions import Predictions
-from mars2d.window.panels.printed import Printed
-from mars2d.window.panels.rows import RowsPanel
-from mars2d.window.panels.scopes import Scopes
+from mars2d.scenario.scenario import Scenario
+from mars2d.window.panels.panels import Panels
 from mars2d.window.run import keys
+from mars2d.window.run.arena import Arena
 from mars2d.window.run.countdown import Countdown
-from mars2d.window.run.director import RECORDING, Director
-from mars2d.window.run.drags import GOOD, draw_ring
-from mars2d.window.run.ending import Ending
-from mars2d.window.run.ghosts import ghosts
+from mars2d.window.run.director import Director
 from mars2d.window.run.grab import CLICK, Grab
-from mars2d.window.run.heat import AGAIN, MOST, heat, squeezes
 from mars2d.window.run.menus import (
     entries_of_body,
     entries_of_leaving,
     entries_of_place,
     entries_of_scopes,
 )
-from mars2d.window.run.mouse import Mouse
+from mars2d.window.run.mouse import Pixel
 from mars2d.window.run.play import Play
 from mars2d.window.run.player_window import PlayerWindow
-from mars2d.window.run.push import draw_pushes
 from mars2d.window.run.reload import Reload
 from mars2d.window.run.score_panel import ScorePanel
 from mars2d.window.run.toolbar import Toolbar
 from mars2d.window.run.tools import Tools
-from mars2d.window.screen.display import (
-    Preferences,
-)
-from mars2d.window.screen.picking import Selection, body_at, next_body, sensed_by
+from mars2d.window.screen.display import Preferences
+from mars2d.window.screen.picking import Selection, body_at, next_body
 from mars2d.window.screen.source import Playback, Source
 from mars2d.window.screen.viewpoint import Viewpoint
-from mars2d.window.widgets.dock import Dock
 from mars2d.window.widgets.menu import Entry
 from mars2d.world.timeline import Timeline
 
@@ -67,12 +48,6 @@ if TYPE_CHECKING:
     from mars2d.window.editor import Editor
 
 TYPING = (pygame.KEYDOWN, pygame.TEXTINPUT, pygame.TEXTEDITING)
-LACKS = {
-    "predictions": "this file has no checks, which compare a run with theory",
-    "lesson": "this file has no lesson: a docstring with Question: and the like",
-    "parameters": RECORDING,
-}
-"""What is said where a panel has nothing to show."""
 USUAL = (
     ("Space", "pause"), ("← →", "step"), ("+ \N{MINUS SIGN}", "speed"), ("F1", "help"),
 )  # fmt: skip
@@ -85,6 +60,9 @@ class Window(PlayerWindow):
 
     speed: a factor of real time, 0 for one step a key press, or "max". size: at first, pixels.
     preferences: how the window looks.
+
+    director changes the run as a person asks, grab is the mouse, dock has the panels, tools are
+    those in the hand; arena draws the picture, editor and game are there while people draw or play.
     """
 
     def __init__(
@@ -95,81 +73,62 @@ class Window(PlayerWindow):
         preferences: Preferences | None = None,
     ) -> None:
         """Prepare; the window opens with `run`."""
-        title, name = source.scenario.title, _stem(source)
-        super().__init__(source, speed, size, preferences, title=title, stem=name)
+        path = source.experiment.source.path if isinstance(source, Timeline) else None
+        title = source.scenario.title
+        stem = title if path is None else experiment_name(path)
+        super().__init__(source, speed, size, preferences, title=title, stem=stem)
         self.layers = self.layers.switched(neighbours=True)
         self.asks = False  # before a run is lost that can't just be run again
-        self.director = Director(self.player, self.notes, self._show_way_back)
-        self.grab = Grab(self.director.change, partial(self.notes.say, kind="warning"))
         self.editor: Editor | None = None
         self.game: Play | None = None  # where people play
-        self._before: Countdown | None = None
-        self._score: ScorePanel | None = None
-        self._crowded = False  # whether forces are drawn as colours
+        self.countdown: Countdown | None = None
+        self.selection, painter = Selection(), self.looks.painter
+        self.director = Director(self.player, self.notes, self._show_way_back)
+        self.tools = Tools(self.player, self.director, self.selection, self.notes)
+        self.dock = Panels(
+            painter, self.player, self.selection, path, self.director.set, self.notes, self.saver
+        )
+        bounds = source.bounds if isinstance(source, Playback) else None
+        self.viewpoint = Viewpoint(source.scenario, self._layout(size), bounds)
+        self._leave_out_names(self.layout.ui)
+        self.mouse = self.grab = Grab(
+            self.player, self.viewpoint, self._controls.handles, self._place,
+            self.director.change, partial(self.notes.say, kind="warning"),
+            {pygame.BUTTON_LEFT: self._select_at, pygame.BUTTON_RIGHT: self._offer},
+        )  # fmt: skip
+        self._arena = Arena(painter, source, self.grab, self.selection, self.tools.ruler)
         timeline = self.director.timeline
         self._reload = None if timeline is None else Reload(timeline, self._show_way_back)
-        self._ending = Ending(self.player)
-        self._cast = _cast(source)
-        painter = self._painter = self.looks.painter
-        self._stage = Stage(painter)
-        self._selection = Selection()
-        self._tools = Tools(self.player, self.director, self._selection, self.notes)
-        self._printed = Printed(painter, lambda: self.player.source.frame.time)
-        self._inspector = Inspector(painter, self._selection)
-        self._predictions = Predictions(painter, timeline)
-        self._lesson, self._impact = Lesson(painter, _path(source)), Impact(painter, self.player)
-        self.parameters = ParameterPanel(painter, self.player, self._selection, self._set_parameter)
-        bounds = source.bounds if isinstance(source, Playback) else None
-        self.viewpoint = Viewpoint(source.scenario, self._layout(size, None), bounds)
-        self._mouse = Mouse(
-            self.player, self.viewpoint, self.grab, self._controls.handles,
-            self._is_picture, self._select_at, self._offer,
-        )  # fmt: skip
+        self._seen: tuple[object, ...] = ()  # the scenario and the experiment
+        self._cast = _cast(source.scenario)
         self._actions |= {
             "contacts": self._stop_or_go_on,
             "source": lambda: self._ending.open_source(self.notes),
-            **{name: partial(self._switch_panel, name) for name in (*LACKS, "printed")},
             "within": partial(self._step_within, 1),
             "within_back": partial(self._step_within, -1),
-            "branch": self._other_branch,
-            "undo": self._undo,
-            "scopes": self._open_scopes,
-            "figure": lambda: self.scopes.save_figure(self.player.frame, self.saver),
-            "less_time": lambda: self.scopes.zoom(1),
-            "more_time": lambda: self.scopes.zoom(-1),
+            "branch": self._without_drag(self.director.other_branch),
+            "undo": self._without_drag(self.director.undo),
+            "scopes": lambda: self.toolbar.open("scopes", self._plots),
             "select": lambda: self.select(next_body(self.player.frame, self.selected)),
             "follow": self._follow_or_not,
-            "slider": self._to_sliders,
             "offer": self._offer_by_key,
-            "turn_on": partial(self._turn_panels, -1),
-            "turn_back": partial(self._turn_panels, 1),
             "drive": self._drive_or_not,
-            **self._tools.actions,
             "edit": self._open_editor,
             "film": self.saver.film_or_not,
+            **self.tools.actions,
+            **self.dock.actions,
         }
-        self.scopes: Scopes = Scopes(painter, self.player)
-        self.dock = Dock(
-            painter,
-            [
-                self._inspector, self.scopes, self.parameters, self._predictions, self._lesson,
-                self._printed, self._impact,
-            ],
-        )  # fmt: skip
-        buttons = dict(self._actions)
-        for name, panel in (("predictions", self._predictions), ("lesson", self._lesson)):
-            if not panel.offered:
-                del buttons[name]
-        self.toolbar = Toolbar(buttons, self._is_on, live=timeline is not None)
+        acts = {name: act for name, act in self._actions.items() if name not in self.dock.lacking}
+        self.toolbar = Toolbar(acts, self._is_on, live=timeline is not None)
 
     @property
     def selected(self) -> int | None:
         """The selected body, an index of `Scenario.bodies`."""
-        return self._selection.body
+        return self.selection.body
 
     def select(self, body: int | None) -> None:
         """Select a body, or none."""
-        self._selection.body = body
+        self.selection.body = body
 
     @property
     def remembered(self) -> dict[str, object]:
@@ -178,14 +137,18 @@ class Window(PlayerWindow):
 
     def run(self) -> None:
         """Do what any window does, and show what laws print."""
-        with self._printed.listening():
+        with self.dock.printed.listening():
             super().run()
 
-    def arena(self) -> pygame.Surface:
-        """Return a picture of the arena alone, without any bars."""
-        self.editor, surface = None, pygame.Surface(self.layout.size, 0, 32)
-        self.draw(surface, notes=False)
-        return surface.subsurface(self.layout.plot)
+    def play(self, robots: Sequence[int] = ()) -> None:
+        """Make it a game, with people at these robots, or with roles that they choose."""
+        self.game = Play(self.player, self.director)
+        self._ending.of_game = True
+        self.countdown = Countdown(self.looks.painter, self.game)
+        self.dock.panels = [*self.dock.panels, ScorePanel(self.looks.painter, self.game)]
+        self.game.begin(robots)
+
+    # -- time -----------------------------------------------------------------------------------
 
     def _calls(self) -> object:
         timeline = self.director.timeline
@@ -199,39 +162,24 @@ class Window(PlayerWindow):
 
     @property
     def _moves(self) -> bool:
-        followed = self.viewpoint.following is not None
+        counts = self.game is not None and self.game.counting > 0
+        drives = self.director.drives and self.game is None
         acts = self.grab.busy or self.saver.filming or self.editor is not None
-        acts |= self._drives and self.game is None
-        if self.game is not None:
-            acts |= self.game.counting > 0
-        return acts or followed or super()._moves
-
-    def _paint(self, screen: pygame.Surface) -> None:
-        """Draw the next picture of the loop, and add it to the film."""
-        self.draw(screen)
-        self._film(screen)
-
-    def _film(self, screen: pygame.Surface) -> None:
-        """Add the drawn screen to the film, if one is being made, and mark it as filmed."""
-        if not self.saver.filming:
-            return
-        plot = self.layout.plot
-        picture = self._arena(screen) if self.editor is None else screen
-        self.saver.film(picture, screen, plot, self._painter)
-        if self.editor is None:  # notes are not part of the film
-            self.notes.draw(screen, plot, self._painter, time.monotonic())
+        follows = self.viewpoint.following is not None
+        return counts or drives or acts or follows or super()._moves
 
     def _pass_time(self, seconds: float) -> None:
         if self.editor is not None:
             return
         self._read_again()
+        self._meet()
         if self.game is not None and self.game.pass_time(seconds):
             self._rest.stir()
         self.director.steer(seconds)
-        self.grab.tick(self.player.frame, self.camera, self.player.playing)
-        self.parameters.tick()
+        self.grab.tick()
+        self.dock.parameters.tick()
         self.player.pass_time(seconds)
-        if self._predictions.look(playing=self.player.playing):
+        if self.dock.predictions.look(playing=self.player.playing):
             self._rest.stir()
         self.viewpoint.step(self.player.frame, seconds)
         if self.player.playing:
@@ -249,19 +197,21 @@ class Window(PlayerWindow):
         if self.director.timeline is not None:
             self.player.error = self.director.timeline.error
         self.player.settle()
-        self._meet()
 
     def _meet(self) -> None:
-        """Release and deselect all bodies if the experiment has others than before."""
-        self.scopes.meet(self.player.source.scenario)
-        cast = _cast(self.player.source)
-        if cast == self._cast:
+        """Where the run has become another, release and deselect bodies that it may not have."""
+        scenario, timeline = self.player.source.scenario, self.director.timeline
+        now = scenario, None if timeline is None else timeline.experiment
+        if all(one is other for one, other in zip(now, self._seen, strict=False)) and self._seen:
             return
-        self._cast, self.viewpoint.following = cast, None
-        self.select(None)
-        self.director.release()
-        self.grab.cancel()
-        self.grab.leave()
+        self._seen = now
+        self.dock.scopes.meet(scenario)
+        if self._cast != (cast := _cast(scenario)):
+            self._cast, self.viewpoint.following = cast, None
+            self.select(None)
+            self.director.release()
+            self.grab.cancel()
+            self.grab.leave()
 
     # -- drawing --------------------------------------------------------------------------------
 
@@ -277,61 +227,42 @@ class Window(PlayerWindow):
             self._draw(surface, self._own_layers(), notes=notes)
 
     def _draw(self, surface: pygame.Surface, layers: Layers, *, notes: bool) -> None:
-        banner = self._ending.banner()
-        frame = self.grab.shown(self.player.frame)
-        layout = self._layout(surface.get_size(), banner)
-        self._painter.ui, self.grab.click = layout.ui, CLICK * layout.ui
-        self._inspector.frames = self._drives
-        self.scopes.chosen = self.selected
+        frame, painter = self.grab.shown(self.player.frame), self.looks.painter
+        layout = self._layout(surface.get_size())
+        painter.ui, self.grab.click = layout.ui, CLICK * layout.ui
+        self.dock.inspector.frames = self.director.drives
         bounds = self.viewpoint.bounds or frame.scenario.bounds
         fit = partial(fitted, bounds, layout.size)
         room = self.dock.arrange(layout, frame, fit, bounds[3] - bounds[2])
         self.viewpoint.arrange(layout, frame.scenario, room)
-        many = len(frame.contacts) > (AGAIN if self._crowded else MOST)
-        self._crowded, squeezed = many and layers.forces, ""
-        if self._crowded:
-            layers, over = layers.switched(forces=False), self.grab.over
-            squeezed = "" if over is None else in_newtons(float(squeezes(frame)[over]))
-        marks = self.grab.marks(frame, self.camera, named=self.layers.names, more=squeezed)
-        if self.selected is not None:
-            ring = Scene()
-            draw_ring(ring, frame, self.selected, GOOD, 2.5, 10.0)
-            marks = [*ring.shapes, *marks]
-        timeline = self.director.timeline
-        source, done = self.player.source, list[Intervention]()
-        if timeline is not None:
-            done = timeline.world.operator.log
-        elif isinstance(source, Playback):
-            done += source.record.interventions
-        scene, dt = heat(frame) if self._crowded else Scene(), frame.scenario.sampling_time
-        draw_pushes(scene, frame, pushes_at(done, frame.time, dt), self.camera)
         pointer = None if self._pointer is None else self._point_at(self._pointer)
-        self._tools.ruler.draw(scene, frame, self.camera, pointer)
-        marks = [*marks, *scene.shapes]
-        others = [] if timeline is None else ghosts(timeline, frame).shapes
-        self._stage.draw(
-            surface,
-            sensed_by(frame, self.selected),
-            self.camera,
-            layers,
-            layout.plot,
-            free=self.dock.free,
-            beneath=others,
-            marks=marks,
-            hurried=self.viewpoint.hurried,
-        )
+        self._arena.draw(surface, frame, self.viewpoint, layers, self.dock.free, pointer)
         self._draw_dock(surface, frame)
         if notes and not self.saver.filming:
-            off = self._selected_pixel(frame)
-            self.notes.draw(surface, layout.plot, self._painter, time.monotonic(), off)
-        self._tools.stopwatch.draw(surface, self.viewpoint.room, self._painter, frame.time)
-        self._draw_bars(surface, frame, banner)
-        if self._before is not None and notes:
-            self._before.draw(surface, self.viewpoint.room, layout.plot, frame.scenario)
+            self._draw_notes(surface)
+        self.tools.stopwatch.draw(surface, self.viewpoint.room, painter, frame.time)
+        draw_header(surface, layout, painter, frame, self._status())
+        self._controls.draw(surface, layout, painter, self._pointer, self.mouse.drags)
+        hints = () if self.game is not None else BY_HAND if self.director.drives else USUAL
+        draw_footer(surface, layout, painter, self._ending.banner(), summary(frame), hints)
         if notes:
-            self.toolbar.draw(surface, layout, self._painter, self._pointer)
-            self._tools.menu.draw(surface, layout.plot, self._painter)
-        self.help.draw(surface, layout, self._painter, keys.GROUPS.items())
+            if self.countdown is not None:
+                self.countdown.draw(surface, self.viewpoint.room, layout.plot, frame.scenario)
+            self.toolbar.draw(surface, layout, painter, self._pointer)
+            self.tools.menu.draw(surface, layout.plot, painter)
+        self.help.draw(surface, layout, painter, keys.GROUPS.items())
+
+    def _draw_notes(self, surface: pygame.Surface) -> None:
+        off, painter = self._selected_pixel(self.player.frame), self.looks.painter
+        self.notes.draw(surface, self.layout.plot, painter, time.monotonic(), off)
+
+    def _draw_dock(self, surface: pygame.Surface, frame: Frame) -> None:
+        """Draw the panels, away from the selected body where the arena makes no room for them."""
+        beside = self.viewpoint.makes_room and self.dock.beside
+        spot = None if beside else self._selected_pixel(frame)
+        drives = self.director.drives and self.viewpoint.following is None
+        free = self.viewpoint.seen if drives else None
+        self.dock.draw(surface, frame, spot, self._pointer, free=free)
 
     def _selected_pixel(self, frame: Frame) -> tuple[float, float] | None:
         """Return where the selected body is drawn, if one is selected."""
@@ -340,53 +271,47 @@ class Window(PlayerWindow):
         ((x, y),) = self.camera.to_pixels([frame.body_pose(self.selected)[:2]]).tolist()
         return x, y
 
-    def _draw_bars(self, surface: pygame.Surface, frame: Frame, banner: Banner | None) -> None:
-        """Draw the bars round the picture."""
-        layout, painter = self.layout, self._painter
-        draw_header(surface, layout, painter, frame, self._status())
-        self._controls.draw(surface, layout, painter, self._pointer, self._mouse.drags)
-        hints = () if self.game is not None else BY_HAND if self._drives else USUAL
-        draw_footer(surface, layout, painter, banner, summary(frame), hints)
-
     def _status(self) -> Status:
         text, kind = self.player.status()
         if self.game is not None and self.game.counting:
             return Status("get ready", "waiting")
         if self.game is not None and self.player.playing and kind == "running":
             return Status(text, "hand")
-        if self._drives and kind in ("running", "waiting") and not self.player.over:
+        if self.director.drives and kind in ("running", "waiting") and not self.player.over:
             return Status(f"{text}  {self.director.status}", "hand")
         return Status(text, kind)
 
-    def _draw_dock(self, surface: pygame.Surface, frame: Frame) -> None:
-        """Draw the panels, away from the selected body where the arena makes no room for them."""
-        beside = self.viewpoint.makes_room and self.dock.beside
-        spot = None if beside else self._selected_pixel(frame)
-        drives = self._drives and self.viewpoint.following is None
-        free = self._seen_arena(frame) if drives else None
-        self.dock.draw(surface, frame, spot, self._pointer, free=free)
+    def _paint(self, screen: pygame.Surface) -> None:
+        """Draw the next picture of the loop, and add it to the film."""
+        self.draw(screen)
+        if not self.saver.filming:
+            return
+        whole = self.editor is not None
+        picture = screen if whole else self._picture(screen)
+        self.saver.film(picture, screen, self.layout.plot, self.looks.painter)
+        if not whole:  # notes are not part of the film
+            self._draw_notes(screen)
 
-    @property
-    def _drives(self) -> bool:
-        """Whether a robot is driven by hand."""
-        return bool(self.director.driven)
+    def arena(self) -> pygame.Surface:
+        """Return a picture of the arena alone, without any bars."""
+        self.editor = None
+        return self._drawn().subsurface(self.layout.plot)
 
-    def _seen_arena(self, frame: Frame) -> pygame.Rect:
-        """Return where the workspace is seen, which a driver needs to see, pixels."""
-        xmin, xmax, ymin, ymax = self.viewpoint.bounds or frame.scenario.bounds
-        (left, top), (right, bottom) = self.camera.to_pixels([(xmin, ymax), (xmax, ymin)]).tolist()
-        return pygame.Rect(left, top, right - left, bottom - top)
+    def _drawn(self) -> pygame.Surface:
+        """Return a picture of the window without notes and menus."""
+        surface = pygame.Surface(self.layout.size, 0, 32)
+        self.draw(surface, notes=False)
+        return surface
 
-    def _layout(self, size: tuple[int, int], banner: Banner | None) -> Layout:
-        """Return the layout on a surface of this size."""
-        text, scale = self.looks.text, self.looks.scale
-        height = footer_height(banner, size, self._painter, text, scale)
-        return self.looks.layout(size, height, controls=True)
+    def _picture(self, window: pygame.Surface) -> pygame.Surface:
+        """Return the picture that a drawn window shows, without its own bars."""
+        banner, frame = self._ending.banner(), self.player.frame
+        return arena_of(window, self.layout, self.looks.painter, frame, banner)
 
     # -- events ---------------------------------------------------------------------------------
 
     def _take(self, event: pygame.Event) -> bool:
-        if self._tools.menu.handle(event):
+        if self.tools.menu.handle(event):
             return True
         over = self.editor is None and self.toolbar.menu.is_open and self.toolbar.handle(event)
         if not over and self.director.handle(event):
@@ -396,49 +321,59 @@ class Window(PlayerWindow):
             if self.editor.dialogs.done:
                 self._close_editor(self.editor)
             return True
-        if not over and self._before is not None and self._before.handle(event):
+        if not over and self.countdown is not None and self.countdown.handle(event):
             return True
         if over or self.toolbar.handle(event):
-            self._meet()
             return True
         if not self.help.is_open and self.dock.handle(event):
             return True
-        return event.type in TYPING and not self._drives and self.parameters.press(event)
+        elsewhere = self.help.is_open or self.director.drives
+        return event.type in TYPING and not elsewhere and self.dock.parameters.press(event)
 
     def _point(self, event: pygame.Event) -> None:
         if event.type == pygame.MOUSEBUTTONDOWN:
-            self.parameters.leave()
+            self.dock.parameters.leave()
             if self.player.failed and self.layout.footer.collidepoint(event.pos):
                 self._ending.open_source(self.notes)
-        self._mouse.handle(event)
+        super()._point(event)
 
-    def _is_picture(self, pixel: tuple[int, int]) -> bool:
-        """Return whether a pixel shows the picture, with nothing over it."""
+    def _place(self, pixel: Pixel) -> Pixel | None:
+        """Return a pixel of the picture, if nothing lies over it."""
         over = self.help.is_open or self.dock.covers(pixel) or self.toolbar.covers(pixel)
-        return not over and self.layout.plot.collidepoint(pixel)
+        return pixel if self.layout.plot.collidepoint(pixel) and not over else None
 
-    def _select_at(self, point: Point) -> None:
-        """Select the body at a point [m] of the picture, or nothing; or measure there."""
-        body = body_at(self.player.frame, point, self.grab.click / self.camera.scale)
-        if self._tools.ruler.on:
-            self._tools.ruler.mark(point if body is None else body)
-        else:
-            self.select(body)
-
-    def _point_at(self, pixel: tuple[int, int]) -> Point:
+    def _point_at(self, pixel: Pixel) -> Point:
         """Return the point [m] at a pixel."""
         ((x, y),) = self.camera.to_world([pixel]).tolist()
         return x, y
 
+    def _is_on(self, action: str) -> bool:
+        return self.dock.is_on(action) or {
+            "contacts": self.player.stops,
+            "drive": self.director.drives,
+            "follow": self.viewpoint.following is not None,
+            "film": self.saver.filming,
+        }.get(action, super()._is_on(action))
+
+    # -- selecting, and menus -------------------------------------------------------------------
+
+    def _select_at(self, point: Point) -> None:
+        """Select the body at a point [m] of the picture, or nothing; or measure there."""
+        body = body_at(self.player.frame, point, self.grab.click / self.camera.scale)
+        if self.tools.ruler.on:
+            self.tools.ruler.mark(point if body is None else body)
+        else:
+            self.select(body)
+
     def _offer_by_key(self) -> None:
         """Open the menu of the selected body, or of the middle of the floor."""
         frame, body = self.player.frame, self.selected
-        middle = self.viewpoint.room.center
-        self._offer_at(self._point_at(middle) if body is None else frame.body_pose(body)[:2])
+        middle = self._point_at(self.viewpoint.room.center)
+        self._offer_at(middle if body is None else frame.body_pose(body)[:2])
 
     def _offer(self, point: Point) -> None:
         """Select the thing at a point [m] of the picture, and open its menu."""
-        self._tools.ruler.end()
+        self.tools.ruler.end()
         self._select_at(point)
         self._offer_at(point)
 
@@ -447,42 +382,34 @@ class Window(PlayerWindow):
         ((x, y),) = self.camera.to_pixels([point]).astype(int).tolist()
         frame, body, live = self.player.frame, self.selected, self.director.timeline is not None
         if body is None:
-            entries = entries_of_place(point, self._actions, self._tools.measure_from, live=live)
+            entries = entries_of_place(point, self._actions, self.tools.measure_from, live=live)
         else:
             entries = entries_of_body(frame, body, self._actions, live=live)
         self.toolbar.menu.open("offer", lambda: entries, (x, y))
 
-    def _is_on(self, action: str) -> bool:
-        return {
-            "contacts": self.player.stops,
-            "parameters": self.parameters.is_open,
-            "scopes": self.scopes.is_open,
-            "predictions": self._predictions.is_open,
-            "lesson": self._lesson.is_open,
-            "drive": self._drives,
-            "follow": self.viewpoint.following is not None,
-            "film": self.saver.filming,
-        }.get(action, super()._is_on(action))
+    def _plots(self) -> list[Entry]:
+        """Return the entries of the menu of plots."""
+        return entries_of_scopes(self.player.frame, self.selected, self.dock.scopes, self._actions)
 
     # -- commands -------------------------------------------------------------------------------
+
+    def _without_drag(self, act: Callable[[], None]) -> Callable[[], None]:
+        """Return a command before which a drag of a body ends."""
+
+        def acts() -> None:
+            self.grab.cancel()
+            act()
+
+        return acts
 
     def _restart(self) -> None:
         """Start again, with the file as it is now."""
         self.grab.cancel()
         self.notes.clear()
         self.player.restart()
-        self._meet()
-        if self.game is not None and self._score is not None:
-            self._score.wanted = True
+        if self.game is not None:
+            self.dock.named("score").open()
             self.game.begin()
-
-    def _switch_panel(self, name: str) -> None:
-        """Show a panel, or no longer; or say what it lacks."""
-        panel = next(panel for panel in self.dock.panels if panel.name == name)
-        if panel.offered:
-            self.dock.switch(name)
-        else:
-            self.notes.say(LACKS[name], "warning")
 
     def _stop_or_go_on(self) -> None:
         """Let time stop where contacts begin, or go on."""
@@ -493,27 +420,58 @@ class Window(PlayerWindow):
         """Go to a contact of the selected body, or of any; forces and its card are shown there."""
         self.player.body = self.selected
         super()._to_contact(go)
-        self._impact.open()
+        self.dock.impact.open()
 
     def _step_within(self, way: int) -> None:
         """Go to another moment within a control step; forces are shown there."""
         self.layers = self.layers.switched(forces=True, impulses=True)
         self.director.step_within(way)
 
-    def _open_scopes(self) -> None:
-        """Open the menu of plots."""
+    def _fit(self) -> None:
+        """Show the whole workspace, beside all panels."""
+        self.dock.reframe()
+        super()._fit()
 
-        def entries() -> list[Entry]:
-            plots = entries_of_scopes(self.player.frame, self.selected, self.scopes)
-            figure = Entry("Save the plots as a figure", self._actions["figure"])
-            return [figure, *plots] if self.scopes.is_open else plots
+    def _follow_or_not(self) -> None:
+        """Let the camera follow the selected body or all robots, or stop following."""
+        self.viewpoint.follow(self.selected)
+        if self.viewpoint.following is None:
+            self.notes.say("the camera stays where it is; F shows all")
+            return
+        bodies = self.player.source.scenario.bodies
+        who = "all robots" if self.selected is None else bodies[self.selected].name
+        self.notes.say(f"the camera follows {who}; L ends it")
 
-        self.toolbar.open("scopes", entries)
+    def _drive_or_not(self) -> None:
+        """Drive the selected robot by hand, or the first one; or stop driving."""
+        if self.game is not None:
+            self.notes.say("people drive until the end of the game; R begins again, Ctrl Q leaves")
+        elif self.director.drives:
+            self.director.let_go()
+        else:
+            self.select(self.selected or 0)
+            self.director.drive(self.selected or 0)
 
-    def _undo(self) -> None:
-        """Undo the last thing done by hand; a drag ends."""
-        self.grab.cancel()
-        self.director.undo()
+    def _end_activity(self) -> bool:
+        """End a drag, measuring or driving, select nothing, pause a game; return whether it did."""
+        if self.grab.busy:
+            self.grab.cancel()
+        elif self.tools.ruler.on:
+            self.tools.ruler.end()
+        elif self.director.drives and self.game is None:
+            self.director.let_go()
+        elif self.selected is not None:
+            self.select(None)
+        elif self.game is not None and self.player.playing and not self.notes.failed:
+            self.player.pause()
+            self.notes.say("paused: Space goes on, R begins again, Ctrl Q leaves")
+        else:
+            return False
+        return True
+
+    def _save_picture(self) -> None:
+        """Save a picture of the arena, without the notes."""
+        self.saver.picture(self._picture(self._drawn()))
 
     def _close(self) -> None:
         """Close the window; if hands did something that would be lost, ask first, once."""
@@ -531,121 +489,9 @@ class Window(PlayerWindow):
         corner = plot.left + plot.width // 4, plot.top + plot.height // 4
         menu.open("leave", lambda: entries, corner)
 
-    def _other_branch(self) -> None:
-        """Show the branch that was left longest ago, or an earlier run."""
-        self.grab.cancel()
-        self.director.other_branch()
-        self._meet()
-
-    def _fit(self) -> None:
-        """Show the whole workspace, beside all panels."""
-        self.dock.reframe()
-        super()._fit()
-
-    def _follow_or_not(self) -> None:
-        """Let the camera follow the selected body or all robots, or stop following."""
-        self.viewpoint.follow(self.selected)
-        if self.viewpoint.following is None:
-            self.notes.say("the camera stays where it is; F shows all")
-            return
-        bodies = self.player.source.scenario.bodies
-        who = "all robots" if self.selected is None else bodies[self.selected].name
-        self.notes.say(f"the camera follows {who}; L ends it")
-
-    def _end_activity(self) -> bool:
-        """End a drag, measuring or driving, select nothing, pause a game; return whether it did."""
-        if self.grab.busy:
-            self.grab.cancel()
-        elif self._tools.ruler.on:
-            self._tools.ruler.end()
-        elif self._drives and self.game is None:
-            self.director.let_go()
-        elif self.selected is not None:
-            self.select(None)
-        elif self.game is not None and self.player.playing and not self.notes.failed:
-            self.player.pause()
-            self.notes.say("paused: Space goes on, R begins again, Ctrl Q leaves")
-        else:
-            return False
-        return True
-
-    # -- saving, and changing the run -----------------------------------------------------------
-
-    def _save_picture(self) -> None:
-        """Save a picture of the arena, without the notes."""
-        surface = pygame.Surface(self.layout.size, 0, 32)
-        self.draw(surface, notes=False)
-        self.saver.picture(self._arena(surface))
-
-    def _arena(self, window: pygame.Surface) -> pygame.Surface:
-        """Return the picture that a drawn window shows, without its own bars."""
-        banner, frame = self._ending.banner(), self.player.frame
-        return arena_of(window, self.layout, self._painter, frame, banner)
-
-    def _to_sliders(self) -> None:
-        """Let keys go to the sliders of parameters, which are shown."""
-        if not self.parameters.is_open:
-            self._switch_panel("parameters")
-        self.parameters.focus_on(None)
-
-    def _turn_panels(self, notches: int) -> None:
-        """Scroll the panels that have more rows, as the wheel over them does."""
-        turned = pygame.Event(pygame.MOUSEWHEEL, x=0, y=3 * notches)
-        for panel in self.dock.panels:
-            if isinstance(panel, RowsPanel) and panel.is_open and panel.cut:
-                panel.handle(turned)
-
-    def _set_parameter(self, name: str, value: float, restart: bool) -> str:
-        """Set a parameter; return why the run starts again, or ""."""
-        reason = self.director.set(name, value, restart)
-        if reason and restart:
-            self.grab.cancel()
-        self._meet()
-        return reason
-
-    def _drive_or_not(self) -> None:
-        """Drive the selected robot by hand, or the first one; or stop driving."""
-        scenario = self.player.source.scenario
-        if self.game is not None:
-            self.notes.say("people drive until the end of the game; R begins again, Ctrl Q leaves")
-        elif self._drives:
-            self.director.let_go()
-        elif self.selected is not None and self.selected >= len(scenario.robots):
-            self.notes.say(f"{scenario.bodies[self.selected].name} has no drive", "warning")
-        else:
-            robot = self.selected or 0
-            self.select(robot)
-            self.director.drive(robot)
-
-    def say_who_stands_still(self) -> None:
-        """Say which robots of a drawn scenario nothing moves, or that nothing moves any."""
-        timeline = self.director.timeline
-        if timeline is None:
-            return
-        experiment = timeline.experiment
-        idle = standing_still(experiment.scenario, experiment.control)
-        drawn = experiment.source.path is not None and experiment.source.path.suffix == ".toml"
-        all_idle = len(idle) == len(experiment.scenario.robots) and not experiment.scenario.props
-        if not idle or not (drawn or all_idle):
-            return
-        first, want = next(iter(idle.items()))
-        name = experiment.scenario.robots[first].name
-        more = f", and {counted(len(idle) - 1, 'more robot')}" if len(idle) > 1 else ""
-        stands = "stand" if more else "stands"
-        self.notes.say(f"{name}{more} {stands} still: {name} lacks {want}", "warning")
-
-    def play(self, robots: Sequence[int] = ()) -> None:
-        """Make it a game, with people at these robots, or with roles that they choose."""
-        self.game = Play(self.player, self.director)
-        self._ending.of_game = True
-        self._before = Countdown(self._painter, self.game)
-        self._score = ScorePanel(self._painter, self.game)
-        self.dock.panels = [*self.dock.panels, self._score]
-        self.game.begin(robots)
-
     def _open_editor(self) -> None:
         """Open the editor on the scenario as it is now."""
-        self._mouse.let_go()
+        self.grab.let_go()
         self.editor = self.director.editor(self.looks)
         if self.editor is not None:
             self.editor.viewpoint.look_as(self.viewpoint)
@@ -657,7 +503,6 @@ class Window(PlayerWindow):
         self._keyboard.clear()
         if editor.dialogs.outcome is not None:
             self.director.apply(editor.dialogs.outcome)
-            self._meet()
 
     def _show_way_back(self, share: float) -> bool:  # noqa: ARG002
         """Say that a world goes back, which takes a while; return whether it may."""
@@ -672,18 +517,6 @@ class Window(PlayerWindow):
         return not leaving and all(event.key != pygame.K_ESCAPE for event in keys_down)
 
 
-def _cast(source: Source) -> tuple[list[str | None], list[str | None]]:
+def _cast(scenario: Scenario) -> tuple[list[str | None], list[str | None]]:
     """Return the names of robots and of props."""
-    scenario = source.scenario
     return [robot.name for robot in scenario.robots], [prop.name for prop in scenario.props]
-
-
-def _path(source: Source) -> Path | None:
-    """Return the file of an experiment."""
-    return source.experiment.source.path if isinstance(source, Timeline) else None
-
-
-def _stem(source: Source) -> str:
-    """Return the name for saved files, without a number."""
-    path = _path(source)
-    return source.scenario.title if path is None else experiment_name(path)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -45,26 +44,22 @@ class Memory:
     @property
     def recent(self) -> list[Path]:
         """The files last opened that are still there, the last one first."""
-        paths = [
-            Path(each) for each in self.read(WINDOWS).get("recent", []) if isinstance(each, str)
-        ]
+        paths = [Path(each) for each in self._known.get("recent", []) if isinstance(each, str)]
         return [path for path in paths if path.is_file()][:RECENT]
 
     def preferences(self, *, dark: bool | None = None, text: float | None = None) -> Preferences:
         """Return how windows looked last; arguments take precedence."""
-        known, usual = self.read(WINDOWS), Preferences()
+        looks = {name: self._known[name] for name in ("dark", "text") if name in self._known}
         try:
-            last = Preferences(
-                dark=known.get("dark", usual.dark), text=known.get("text", usual.text)
-            )
+            last = Preferences(**looks)
         except InputError:  # a file that was edited
-            last = usual
+            last = Preferences()
         return Preferences(dark=last.dark if dark is None else dark, text=text or last.text)
 
     @property
     def size(self) -> tuple[int, int]:
         """The size of the last window, points."""
-        match self.read(WINDOWS).get("size"):
+        match self._known.get("size"):
             case [int(width), int(height)] if 400 <= width <= 8000 and 300 <= height <= 8000:
                 return width, height
         return SIZE
@@ -72,12 +67,17 @@ class Memory:
     @property
     def panels(self) -> list[str]:
         """The names of the panels that were open in the last window; at first the lesson is."""
-        known = self.read(WINDOWS).get("panels", ["lesson"])
+        known = self._known.get("panels", ["lesson"])
         return [name for name in known if isinstance(name, str)] if isinstance(known, list) else []
 
     def keep(self, **looks: Any) -> None:
-        """Remember how a window looks."""
-        self.write(WINDOWS, self.read(WINDOWS) | looks)
+        """Remember how a window looks, if the folder can be written."""
+        if self._folder is None:
+            return
+        with suppress(InputError, OSError):
+            self._folder.mkdir(parents=True, exist_ok=True)
+            with atomic_write(self._folder / WINDOWS) as file:
+                file.write(json.dumps(self._known | looks, indent=1).encode())
 
     def opened(self, path: Path, picture: pygame.Surface | None = None) -> None:
         """Remember that a file was opened, and its picture."""
@@ -95,24 +95,16 @@ class Memory:
             return None
         return self._folder / f"{hashlib.sha256(str(path).encode()).hexdigest()[:16]}.png"
 
-    def read(self, name: str) -> dict[str, Any]:
-        """Return the content of a file of the folder; empty if it can't be read."""
+    @property
+    def _known(self) -> dict[str, Any]:
+        """What is remembered; empty if it can't be read."""
         if self._folder is None:
             return {}
         try:
-            known = json.loads((self._folder / name).read_text(encoding="utf-8"))
+            known = json.loads((self._folder / WINDOWS).read_text(encoding="utf-8"))
         except (OSError, ValueError):
             return {}
         return known if isinstance(known, dict) else {}
-
-    def write(self, name: str, known: Mapping[str, Any]) -> None:
-        """Write a file of the folder, if it can be written."""
-        if self._folder is None:
-            return
-        with suppress(InputError, OSError):
-            self._folder.mkdir(parents=True, exist_ok=True)
-            with atomic_write(self._folder / name) as file:
-                file.write(json.dumps(known, indent=1).encode())
 
 
 def _small(picture: pygame.Surface) -> pygame.Surface:

@@ -7,6 +7,7 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
+from math import inf
 from typing import Literal
 
 from mars2d.core.errors import Mars2dError
@@ -52,14 +53,13 @@ class Player:
         """Start at the source's present frame, playing unless in manual mode."""
         checked = playback_speed("speed", speed)
         self.source = source
-        self.speed = float("inf") if checked == "max" else float(checked)
+        self.speed = inf if checked == "max" else float(checked)
         self.paused = False
         self.stops = False  # where a contact begins
         self.body: int | None = None  # whose contacts count; None for all
         self.error: Mars2dError | None = None
         self.drawing = 0.0  # the time of the last picture, seconds
-        self._todo = 0  # steps to do
-        self._seeks = False  # whether to go on to the next contact
+        self._goal: float | None = None  # the row to go on to; inf: until a contact begins
         self._met = False  # whether a contact has just begun at which it stops
         self._budget, self._clock = budget, clock
         self._present = source.frame
@@ -83,7 +83,7 @@ class Player:
     @property
     def busy(self) -> bool:
         """Whether steps are still to be done."""
-        return self._todo > 0 or self._seeks
+        return self._goal is not None
 
     @property
     def past(self) -> bool:
@@ -126,17 +126,12 @@ class Player:
 
     def pass_time(self, wall: float) -> None:
         """Advance by `wall` seconds since the last picture."""
-        if self._seeks:
-            deadline = self._clock() + self._budget
-            while self._seeks and self._clock() < deadline:
-                self._seeks = self._advance() and not self.source.over and not self._meets()
-            self.settle()
-        if self._todo:
-            self._do_steps()
+        if self._goal is not None:
+            self._go_on()
         if not self.playing:
             self._pace.clear()
             return
-        if self.speed == float("inf"):
+        if self.speed == inf:
             # For as long as a picture may take, without frames in between.
             longest = max(self._budget, min(SHARE_AT_MAX * self.drawing, MAX_TIME_AT_MAX))
             deadline = self._clock() + longest
@@ -164,10 +159,10 @@ class Player:
 
         More steps that are still to be done are not cut short, as by a key that repeats.
         """
-        left = self._todo
+        goal, wanted = self._goal, self.source.row + count
         self.pause()
-        self._todo = max(left, count)
-        self._do_steps()
+        self._goal = wanted if goal is None or goal == inf else max(goal, wanted)
+        self._go_on()
 
     def look_within(self, moments: Sequence[Frame]) -> None:
         """Show the row, and with `step_within` the moments within the step that follows it."""
@@ -187,7 +182,7 @@ class Player:
             self.go(later[0])
             return
         self.go(self.source.newest)
-        self._seeks = not self.source.over and not self.failed
+        self._goal = None if self.source.over or self.failed else inf
 
     def last_contact(self) -> None:
         """Go back to the last row before this one at which a contact began, or to the start."""
@@ -202,15 +197,16 @@ class Player:
         """Return whether a contact began in the control step that led to the source's row."""
         return bool(meets(self.source.frame.contacts, self.body).any())
 
-    def _do_steps(self) -> None:
-        """Do the requested steps, as many as fit into the time of one picture."""
-        deadline = self._clock() + self._budget
-        while self._todo and not (self.failed or self.source.over):
-            self._todo -= 1
-            if not self._advance() or self._clock() >= deadline:
+    def _go_on(self) -> None:
+        """Go on towards the goal, as far as fits into the time of one picture."""
+        deadline, seeks = self._clock() + self._budget, self._goal == inf
+        while self._goal is not None and self.source.row < self._goal:
+            if self.failed or self.source.over or not self._advance() or (seeks and self._meets()):
                 break
-        else:
-            self._todo = 0
+            if self._clock() >= deadline:
+                self.settle()
+                return
+        self._goal = None
         self.settle()
 
     def back(self, count: int = 1) -> None:
@@ -225,7 +221,7 @@ class Player:
 
     def pause(self) -> None:
         """Stop time, and show the present frame."""
-        self._todo, self._seeks = 0, False
+        self._goal = None
         if not self.manual:
             self.paused = True
         self.settle()
@@ -235,7 +231,7 @@ class Player:
         if self.manual:
             self.step()
             return
-        self._todo, self._seeks, self._moments = 0, False, ()
+        self._goal, self._moments = None, ()
         if self.over and not self.failed:
             self.source.go(0)
             self.settle()
@@ -253,7 +249,7 @@ class Player:
     def faster(self) -> None:
         """Go one rung up; from manual mode to the lowest rung."""
         higher = [rung for rung in SPEEDS if rung > self.speed * (1 + 1e-9)]
-        self.set_speed(higher[0] if higher else float("inf"))
+        self.set_speed(higher[0] if higher else inf)
 
     def slower(self) -> None:
         """Go one rung down, not below the lowest."""
@@ -264,7 +260,7 @@ class Player:
     def restart(self) -> None:
         """Start again; a law that has failed is run again."""
         self.error = None
-        self._todo, self._seeks = 0, False
+        self._goal = None
         self._pace.clear()
         try:
             self.source.restart()
@@ -283,17 +279,16 @@ class Player:
             return f"{self._pace_in_words() if self.playing else 'past'}  {ago:g} s ago", "past"
         if self.over:
             return ("stopped", "error") if self.failed else ("over", "waiting")
-        if self._seeks:
-            return "until a contact", "running"
-        if self._todo:
-            return f"{self._todo} steps", "running"
+        if self._goal is not None:
+            left = self._goal - self.source.row
+            return "until a contact" if left == inf else f"{left:.0f} steps", "running"
         if self.manual:
             return "manual", "waiting"
         return ("paused", "waiting") if self.paused else (self._pace_in_words(), "running")
 
     def _pace_in_words(self) -> str:
         factor = self.factor
-        if self.speed == float("inf"):
+        if self.speed == inf:
             return "max" if factor is None else f"max  {times(factor)}"
         text = times(self.speed)
         if factor is not None and factor < BEHIND * self.speed:

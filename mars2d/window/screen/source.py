@@ -16,6 +16,8 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.world.record import Record
 from mars2d.world.timeline import Timeline
 
+RECORDING = "this is a recording: it can be looked at, not changed"
+
 
 class Playback:
     """A recorded run, row by row."""

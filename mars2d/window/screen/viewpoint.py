@@ -62,6 +62,14 @@ class Viewpoint:
         return self._room
 
     @property
+    def seen(self) -> pygame.Rect:
+        """Where the workspace is seen, pixels."""
+        xmin, xmax, ymin, ymax = self.bounds or self._scenario.bounds
+        corners = self.camera.to_pixels([(xmin, ymax), (xmax, ymin)])
+        (left, top), (right, bottom) = corners.tolist()
+        return pygame.Rect(left, top, right - left, bottom - top)
+
+    @property
     def makes_room(self) -> bool:
         """Whether the workspace is seen beside panels, which cover none of it."""
         return self._fits and self._room != self.layout.plot

@@ -128,6 +128,7 @@ class Dock:
         self.plates: dict[str, pygame.Rect] = {}
         self.closes: dict[str, pygame.Rect] = {}
         self._folded: set[str] = set()
+        self._names: list[str] = []  # of the panels for which the place was chosen
         self._recent: list[str] = []  # names, the one opened last first
         self._place: Place | None = None
         self._plot = self._room = pygame.Rect(0, 0, 0, 0)
@@ -190,11 +191,15 @@ class Dock:
         names = [panel.name for panel in shown]
         new = [name for name in names if name not in self._recent]
         self._recent = [*reversed(new), *(name for name in self._recent if name in names)]
-        self._place = place = self._best(layout, frame, fit, tall) if shown else None
+        framed = layout, *(panel.name for panel in shown if panel.frames)
+        anew = framed != self._framed
+        if anew or names != self._names:  # not where only heights change
+            self._names = names
+            self._place = self._best(layout, frame, fit, tall, anew=anew) if shown else None
+        place = self._place
         if self.plates.keys() != set(names):  # what covers the picture, before it is drawn
             self.plates = self._plates(place.lanes, frame) if place else {}
-        framed = layout, *(panel.name for panel in shown if panel.frames)
-        if framed != self._framed:
+        if anew:
             moves = place is not None and (self._framed is None or len(framed) > 1)
             self._framed, self._room = framed, place.room if place and moves else self._plot
         return self._room
@@ -213,9 +218,13 @@ class Dock:
         self._framed = None
 
     def _best(
-        self, layout: Layout, frame: Frame, fit: Callable[[Layout], Camera], tall: float
-    ) -> Place | None:
-        """Return the place at which arena and panels are largest, if there is one."""
+        self, layout: Layout, frame: Frame, fit: Callable[[Layout], Camera], tall: float, *,
+        anew: bool,
+    ) -> Place | None:  # fmt: skip
+        """Return the place at which arena and panels are largest, if there is one.
+
+        anew: whether the arena may move; else places beside where it is come first.
+        """
         shown = self._shown
 
         def scale(plot: pygame.Rect) -> float:
@@ -234,6 +243,7 @@ class Dock:
 
         places = list(self._places(frame, round(tall * alone + 56 * self.painter.ui)))
         beside = [place for place in places if scale(place.room) >= BESIDE * alone]
+        beside = [place for place in beside if not anew and place.room == self._room] or beside
         covering = [place._replace(room=self._plot) for place in places[:1]]
         return max(beside, key=worth) if beside else next(iter(covering), None)
 

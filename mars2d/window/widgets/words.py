@@ -31,7 +31,7 @@ def write_line(
 ) -> pygame.Rect:
     """Write words from both ends of a rectangle, in its middle; return what is free between.
 
-    Those at the left are shortened where there is no room for them.
+    Those at the left are shortened where there is no room for them, or left out.
     """
     gap, free = round(GAP * painter.ui), rect.copy()
     for text, color, size, bold in reversed(right):
@@ -41,6 +41,8 @@ def write_line(
         free.width = place.left - gap - free.left
     for text, color, size, bold in left:
         short = painter.fonts.shorten(text, size * painter.ui, max(free.width, 0), bold=bold)
+        if painter.fonts.width(short, size * painter.ui, bold=bold) > free.width:
+            break
         place = painter.write(
             surface, short, size * painter.ui, color, bold=bold, midleft=free.midleft
         )

@@ -54,12 +54,9 @@ def read(path: Path, largest: int) -> Rows:
                 end, count = json.loads(told.metadata["end"]), int(told.metadata["rows"])
                 headers.check_sums(end)
         if header is None:
-            ours = channels or path.stat().st_size < len(MAGIC)
-            raise InputError(
-                "holds no rows: the run ended before its first one"
-                if ours
-                else "an MCAP file, but not of MARS2D: it has no rows of a run"
-            )
+            if channels or path.stat().st_size < len(MAGIC):
+                raise InputError("holds no rows: the run ended before its first one")
+            raise InputError("an MCAP file, but not of MARS2D: it has no rows of a run")
         return _record(rows, header, end if len(rows) == count else None)
 
 

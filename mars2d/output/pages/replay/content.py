@@ -137,7 +137,11 @@ class _Content:
             if columns.size <= POSES or count <= 2:
                 break
             count = max(2, int(count * min(0.9, POSES / columns.size)))
-        gaps = np.argwhere(_gaps(ways, poses, kept, self.size))
+        # A line does for a path that is less than a tenth longer, as an arc of less than 90 degrees
+        # is, or by less than a five hundredth of the view's size.
+        gone = np.diff(ways[kept], axis=0, prepend=ways[:1])
+        line = np.hypot(*np.diff(poses[kept, :2], axis=0, prepend=poses[:1, :2]).swapaxes(0, 1))
+        gaps = np.argwhere(gone - line > np.maximum(0.1 * gone, self.size / 500))
         leaps = [
             (int(np.searchsorted(kept, row)), body) for row, body in leaps_of(record.interventions)
         ]
