@@ -41,8 +41,9 @@ def repeated(act: Act) -> Act:
 class Motion:
     """The base of engines: robots first, then props. obstacles: their outlines.
 
-    seen_velocity, seen_work: as `velocity`, and the work on all bodies since the start (6,), J, see
-    `mars2d.record.energy.WORK`; at the last `look`, in memory that the next one writes again.
+    velocity: (3, N) at this instant: x', y' [m/s], theta' [rad/s]. seen_work: on all bodies since
+    the start (6,), J, see `mars2d.record.energy.WORK`, at the last `look`. The next ones are written
+    to the same memory.
     """
 
     def __init__(self, scenario: Scenario) -> None:
@@ -55,8 +56,8 @@ class Motion:
         self._numbers = array("d", bytes(48 * self.count))
         self._state = np.frombuffer(self._numbers).reshape(-1, 6)
         self._seen = False  # whether the space has the bodies where they are
-        self._rates, self._worked = array("d", bytes(24 * self.count)), array("d", bytes(48))
-        self.seen_velocity = locked(np.frombuffer(self._rates).reshape(3, -1))
+        self._worked = array("d", bytes(48))
+        self.velocity = locked(self._state[:, 3:].T)
         self.seen_work = locked(np.frombuffer(self._worked))
         self.obstacles = tuple(surface.outline for surface in scenario.surfaces)
         self._moved()
@@ -83,15 +84,8 @@ class Motion:
         """The poses (3, N): x, y [m], theta [rad], as a new array."""
         return self._state[:, :3].T.copy()
 
-    @property
-    def velocity(self) -> Float:
-        """The velocities (3, N) at this instant: x', y' [m/s], theta' [rad/s], as a new array."""
-        self.look()
-        return self.seen_velocity.copy()
-
     def look(self) -> None:
-        """Let `seen_velocity` and `seen_work` be those of this instant."""
-        self._mover.write_velocities(self._rates)
+        """Let `seen_work` be that of this instant."""
         self._mover.write_work(self._worked)
 
     @repeated
@@ -101,6 +95,7 @@ class Motion:
         Those that stand still since they were stopped go on to do so.
         """
         self._mover.ask(array("d", twist.tobytes()))
+        self._moved()
 
     @repeated
     def take_effort(self) -> Float:

@@ -41,7 +41,12 @@ def mover_of(scenario: Scenario) -> Any:
         for i, (rigid, part) in enumerate(zip(scenario.bodies, parts, strict=True))
     ]
     thinnest = min(body.shape.thickness for body in scenario.bodies)
-    swings = [_swing(tie, scenario.bodies) for tie in scenario.ties]
+    swings = [  # the longest substeps that resolve how springs swing, s
+        settings.SWING / tie.frequency(spring, scenario.bodies)
+        for tie in scenario.ties
+        for spring in tie.constraints
+        if isinstance(spring, SpringDamper | TurningSpring) and spring.stiffness
+    ]
     accuracy = module.Accuracy(
         float(scenario.max_overlap), float(thinnest), min(swings, default=1e300)
     )
@@ -227,13 +232,6 @@ def _gauss(count: int) -> tuple[Float, Float]:
         slope = count * (x * value - before) / (x * x - 1)
         x = x - value / slope
     return x, 2 / ((1 - x * x) * (slope * slope))
-
-
-def _swing(joint: AttachedJoint, bodies: Sequence[Rigid]) -> float:
-    """Return the longest substep that resolves how a joint's springs swing, seconds."""
-    springs = [each for each in joint.constraints if isinstance(each, SpringDamper | TurningSpring)]
-    steps = (settings.SWING / joint.frequency(s, bodies) for s in springs if s.stiffness)
-    return min(steps, default=1e300)
 
 
 def _translated(

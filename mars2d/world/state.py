@@ -147,7 +147,7 @@ class State(Uncopied):
     def _take_engine(self) -> None:
         self.take_poses()
         self._velocity_at = -1, self.pose
-        seen = self.engine.seen_velocity
+        seen = self.engine.velocity
         self._seen = seen[:, self._robots], seen[:, self._props], self.engine.seen_work
 
     def take_poses(self) -> None:
@@ -189,7 +189,7 @@ class State(Uncopied):
     def _velocities(self) -> Float:
         """The velocities of all bodies, asked of the engine once a control step."""
         if self._velocity_at[0] != self.iteration:
-            self._velocity_at = self.iteration, sealed(self.engine.velocity)
+            self._velocity_at = self.iteration, sealed(self.engine.velocity.copy())
         return self._velocity_at[1]
 
     def look(self) -> tuple[Float, Float, Float]:

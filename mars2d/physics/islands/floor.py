@@ -52,10 +52,8 @@ def hold(body: Body, h: cython.double) -> cython.void:
         slope = slope + second * second / max(d + twist / 2, 1e-300)
         d = d + over / (2 * slope)
     size: cython.double = length(first, second)
-    body.allowed, body.twist_allowed = (
-        body.grip * (first / size),
-        body.twist_grip * (second / size),
-    )
+    body.allowed = body.grip * (first / size)
+    body.twist_allowed = body.twist_grip * (second / size)
 
 
 @cython.cclass

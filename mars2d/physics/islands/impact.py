@@ -231,12 +231,10 @@ def find_shifts(solver: Solver, h: cython.double) -> cython.void:
             body.shift = h / 2
             if body.engaged and not body.is_robot:
                 solver.take_reaction(body)
-                momentum: cython.double = body.mass * (body.after_x - body.before_x)
-                body.applied_x = (momentum - body.reaction_x) / h
-                momentum = body.mass * (body.after_y - body.before_y)
-                body.applied_y = (momentum - body.reaction_y) / h
-                momentum = body.moment * (body.spin - body.before_spin)
-                body.applied_turn = (momentum - body.reaction_turn) / h
+                body.applied_x = (body.mass * (body.after_x - body.before_x) - body.reaction_x) / h
+                body.applied_y = (body.mass * (body.after_y - body.before_y) - body.reaction_y) / h
+                turned: cython.double = body.moment * (body.spin - body.before_spin)
+                body.applied_turn = (turned - body.reaction_turn) / h
         elif group.hit_power > 0.0:
             body.shift = middle + group.hit_depth / group.hit_power
         else:
@@ -287,13 +285,10 @@ def weaken_contacts(solver: Solver) -> cython.bint:
         if body.group is body:
             body.share = share_of(body)
             weaken = weaken or body.share < 1.0
-    if not weaken:
-        return False
-    for body in solver.bodies:
-        group = group_of(body)
-        if group.share < 1.0:
-            weaken_body(body, body.hit_x, body.hit_y, body.hit_turn, group.share)
-    return True
+    if weaken:
+        for body in solver.bodies:
+            weaken_body(body, body.hit_x, body.hit_y, body.hit_turn)
+    return weaken
 
 
 def share_of(group: Body) -> cython.double:
@@ -327,10 +322,12 @@ def spare(group: Body) -> cython.double:
     return DRIVEN if group.crowd <= DRIVEN_BODIES else 1e300
 
 
-def weaken_body(
-    body: Body, x: cython.double, y: cython.double, turn: cython.double, share: cython.double
-) -> cython.void:
-    """Take back all but a share of impulses x, y and turn on a body."""
+def weaken_body(body: Body, x: cython.double, y: cython.double, turn: cython.double) -> cython.void:
+    """Take back all but its group's share of impulses x, y and turn on a body."""
+    group = group_of(body)
+    share = group.share
+    if share >= 1.0:
+        return
     body.after_x -= (1 - share) * x / body.mass
     body.after_y -= (1 - share) * y / body.mass
     body.spin -= (1 - share) * turn / body.moment
@@ -399,10 +396,7 @@ def weaken_holds(solver: Solver) -> cython.bint:
         if body.hold_work > spare(body) * body.hold_energy:
             body.share = max(1.0 - body.hold_work / max(body.hold_energy, 1e-300), 0.0)
             weaken = weaken or body.share < 1.0
-    if not weaken:
-        return False
-    for body in solver.bodies:
-        group = group_of(body)
-        if group.share < 1.0:
-            weaken_body(body, body.held_x, body.held_y, body.held_turn, group.share)
-    return True
+    if weaken:
+        for body in solver.bodies:
+            weaken_body(body, body.held_x, body.held_y, body.held_turn)
+    return weaken

@@ -397,11 +397,11 @@ class Island:
         accuracy = self.accuracy
         for body in self.bodies:
             body.look()
-        for body in self.bodies:
             h = min(h, body.time_to_turn(accuracy.entry / 8))
         few: cython.bint = self.any_solved and len(self.bodies) <= FEW_MEET
         for pair in self.pairs:
-            if few and pair.gap > accuracy.slop and pair.is_solved():
+            met: cython.bint = few and pair.gap > accuracy.slop
+            if met and (pair.a.solved or (not pair.is_wall and pair.b.solved)):
                 # What drives do after a blow they do not do before it: a substep ends there.
                 first: cython.double = pair.time_to_touch(h, accuracy.touch)
                 h = min(h, 0.99 * first) if first < h else h

@@ -344,15 +344,6 @@ class Mover:
             k += 15
         self.taken = []
 
-    def write_velocities(self, velocities: cython.Doubles) -> None:
-        """Write all x', then all y', then all theta', as they are at this instant."""
-        n: cython.int = len(self.bodies)
-        for i in range(n):
-            body = self.bodies[i]
-            velocities[i] = body.vx
-            velocities[n + i] = body.vy
-            velocities[2 * n + i] = body.spin
-
     def take_effort(self, efforts: cython.Doubles) -> None:
         """Write the largest share of its bounds that each drive used since the last call."""
         for i in range(len(efforts)):

@@ -185,10 +185,6 @@ class Pair:
             return h
         return min(h, time_to_close(room, closing, turn))
 
-    def is_solved(self) -> cython.bint:
-        """Return whether the solver decides how one of them moves."""
-        return self.a.solved or (not self.is_wall and self.b.solved)
-
     def turns(self) -> cython.double:
         """Return how fast the normal turns, rad/s: as the line between the middles of discs."""
         x: cython.double = self.b.vx - self.a.vx

@@ -364,7 +364,13 @@ class Solver:
             body.moved_x, body.moved_y, body.moved_angle = body.x, body.y, body.angle
             body.after_x, body.after_y, body.spin = fast.x, fast.y, chipmunk.spin_of(body.handle)
             if body.is_robot and body.engaged and body.grip_across < 1e300:
-                self.measure_traction(body, h)
+                # What its wheels have borne, and what they could.
+                angle: cython.double = body.back.angle + self.lag(h) * body.back.spin
+                c, s = cosine_sine(angle)
+                self.take_reaction(body)
+                body.traction_ahead = (c * body.reaction_x + s * body.reaction_y) / h
+                body.traction_across = (c * body.reaction_y - s * body.reaction_x) / h
+                body.set_bound(body.reaction_x, body.reaction_y, angle, body.vx, body.vy)
             if body.is_robot and body.solved:
                 share: cython.double = self.used_by(body) / max(body.bound * h, 1e-300)
                 body.effort = max(body.effort, share)
@@ -396,15 +402,6 @@ class Solver:
     def lag(self, h: cython.double) -> cython.double:
         """Return how long after a step of h s begins joints find bodies where they are."""
         return h / 2 if self.ties else h
-
-    def measure_traction(self, body: Body, h: cython.double) -> cython.void:
-        """Find out what the wheels of a robot have borne in a step of h s, and what they could."""
-        angle: cython.double = body.back.angle + self.lag(h) * body.back.spin
-        c, s = cosine_sine(angle)
-        self.take_reaction(body)
-        body.traction_ahead = (c * body.reaction_x + s * body.reaction_y) / h
-        body.traction_across = (c * body.reaction_y - s * body.reaction_x) / h
-        body.set_bound(body.reaction_x, body.reaction_y, angle, body.vx, body.vy)
 
     def share_out(self, body: Body, h: cython.double, shift: cython.double) -> cython.void:
         """Take over a body's motion, and the change of its kinetic energy in the step.
