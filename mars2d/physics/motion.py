@@ -41,9 +41,8 @@ def repeated(act: Act) -> Act:
 class Motion:
     """The base of engines: robots first, then props. obstacles: their outlines.
 
-    velocity: (3, N) at this instant: x', y' [m/s], theta' [rad/s]. seen_work: on all bodies since
-    the start (6,), J, see `mars2d.record.energy.WORK`, at the last `look`. The next ones are written
-    to the same memory.
+    velocity: now, (3, N): x', y' [m/s], theta' [rad/s]. seen_work: on all bodies since the start at
+    the last `look`, (6,) J, see `mars2d.record.energy.WORK`. Both are written again as they change.
     """
 
     def __init__(self, scenario: Scenario) -> None:

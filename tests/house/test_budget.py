@@ -11,7 +11,7 @@ ROOT = Path(__file__).parents[2]
 CODE = {".py", ".pyx", ".pxd", ".pxi", ".js", ".css", ".html"}
 
 LINES = {
-    "addons": 3_916,
+    "addons": 3_997,
     "bodies": 1_932,
     "cli": 2_191,
     "core": 3_108,
