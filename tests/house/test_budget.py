@@ -28,7 +28,7 @@ LINES = {
     "tournaments": 3_079,
     "window": 13_523,
     "world": 3_595,
-    "tests": 45_353,
+    "tests": 45_352,
 }
 """Lines at most, by room of the package, and of all tests."""
 

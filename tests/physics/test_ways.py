@@ -54,18 +54,14 @@ def test_what_slides_beside_a_smooth_wall_goes_as_far_as_in_the_open(sampling_ti
 @each_case("sampling_time", [0.5, 0.1, 0.005])
 def test_the_floor_holds_what_is_pushed_beside_its_middle(sampling_time):
     """It can hold 3.9 N, and 0.5 N m: the push of 2.7 N stops, as half of either would not do."""
-    drive = Holonomic(max_force=2.7)
     for offset in (-0.054, 0.03):
-        robot = Robot(pose=(-0.45, offset, 0), friction=0.38, drive=drive)
+        robot = Robot(pose=(-0.45, offset, 0), friction=0.38, drive=Holonomic(max_force=2.7))
         box = Box(pose=(0, 0, -0.05), mass=1.08, ground_friction=0.37, friction=0.47)
         world = world_of([robot], [box], stop_time=4, sampling_time=sampling_time)
-        paths = []
-        while not world.over:
-            world.step([[0.13], [0.02]])
-            paths.append(world.prop_pose[:, 0])
-        half = len(paths) // 2
-        assert abs(paths[half][0]) > 2e-3
-        assert np.ptp(paths[half:], axis=0) == pytest.approx(0.0, abs=2e-4)
+        drive(world, [[0.13], [0.02]], 4)
+        path = world.record.prop_pose[round(2 / sampling_time) :, :, 0]
+        assert abs(path[0, 0]) > 2e-3
+        assert np.ptp(path, axis=0) == pytest.approx(0.0, abs=2e-4)
 
 
 def test_drives_do_after_a_blow_what_they_do_whatever_the_sampling_time():
@@ -78,8 +74,7 @@ def test_drives_do_after_a_blow_what_they_do_whatever_the_sampling_time():
     ends = []
     for sampling_time in (0.1, 0.005):
         world = world_of(robots, [box], stop_time=2, sampling_time=sampling_time)
-        while not world.over:
-            world.step([[0.28, 0.2], [0.0, 0.0]])
+        drive(world, [[0.28, 0.2], [0.0, 0.0]], 2)
         ends.append(np.hstack([world.pose, world.prop_pose]))
     assert ends[0][:2] == pytest.approx(ends[1][:2], abs=2e-3)
 

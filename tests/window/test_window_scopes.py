@@ -25,6 +25,8 @@ def test_scopes_are_chosen_by_mouse_for_several_bodies(open_window, pushing):
     window.until(lambda s: s["scopes"].get("distance.red") == [2])
     window.press("Escape")
     window.until(lambda s: not s["menu"])
+    window.press("Escape")
+    window.until(lambda s: s["selected"] is None)
     window.do("mousemove", *window.state["closes"]["scopes"], "click", 1)
     window.until(lambda s: not s["panels"])
 

@@ -199,6 +199,8 @@ def test_a_recording_can_be_looked_at_and_says_what_can_not_be_done(open_window,
     window.press("q")
     choose(window, "Kinetic energy")
     window.until(lambda s: "kinetic energy" in s["areas"])
+    window.press("Escape")
+    window.until(lambda s: not s["menu"])
     assert offered(window, -2, -1) == {"Follow with the camera", "Plot over time"}
     window.press("Escape", "r")
     window.until(lambda s: s["row"] == 0 or s["playing"])

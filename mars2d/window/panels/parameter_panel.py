@@ -116,7 +116,7 @@ class ParameterPanel(RowsPanel):
                 self._lines = [] if experiment is None else list(_lines(experiment, body))
             except InputError as error:  # of a Range of a law
                 self._lines, self.said = [("No parameters", None)], (str(error), "error")
-            if selected:  # let its sliders be seen
+            if selected and self._lines:  # let its sliders be seen
                 heading = max(k for k, (_, each) in enumerate(self._lines) if each is None)
                 self.scroll = _top(self._lines[:heading])
             if self.focus not in {each.name for _, each in self._lines if each is not None}:

@@ -149,7 +149,7 @@ class Scopes(Panel):
                 self.traces.remove(trace)
         else:
             trace.bodies = (*trace.bodies, *(b for b in bodies if b not in trace.bodies))
-        self.wanted = bool(self.traces)
+        self.wanted = len(self.traces)
         self._image = None
 
     def meet(self, scenario: Scenario) -> None:
@@ -162,7 +162,7 @@ class Scopes(Panel):
             if trace.bodies and not bodies:
                 self.traces.remove(trace)
             trace.bodies = bodies
-        self.wanted = self.is_open and bool(self.traces)
+        self.wanted = self.is_open and len(self.traces)
 
     def _trace(self, what: What) -> Trace | None:
         return next((trace for trace in self.traces if trace.what == what), None)
@@ -196,8 +196,7 @@ class Scopes(Panel):
     def heights(self, frame: Frame, width: float) -> tuple[float, float]:  # noqa: ARG002
         """Return the least and the wanted height, points."""
         count = max(len(self.traces), 1)
-        plots = max(count, len(self._plots))
-        return LEAST * min(count, 2) + FOOT, WANTED * plots + FOOT
+        return LEAST * min(count, 2) + FOOT, WANTED * max(count, len(self._plots)) + FOOT
 
     def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:
         """Draw the plots, and over them the cursor."""

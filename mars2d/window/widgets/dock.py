@@ -46,8 +46,8 @@ class Panel:
     that is seen of it where there is no room. headed: whether the dock writes the title; else the
     panel draws a head of its own, and leaves the corner at the upper right to the close button.
     frames: whether the arena moves aside when it opens or changes its size. wanted: whether it is
-    to be open. remembered: whether the next window opens it again. pointer: where the mouse is, if
-    it is over the panel; the dock sets it before each drawing.
+    to be open, or with how many plots, which need room. remembered: whether the next window opens
+    it again. pointer: where the mouse is, if it is over the panel, before each drawing.
     """
 
     name = ""
@@ -55,7 +55,7 @@ class Panel:
     headed = True
     frames = True
     remembered = True
-    wanted = False
+    wanted: int = False
     pointer: Pixel | None = None
 
     @property
@@ -66,7 +66,7 @@ class Panel:
     @property
     def is_open(self) -> bool:
         """Whether it is wanted, and there is something to show."""
-        return self.wanted and self.offered
+        return bool(self.wanted and self.offered)
 
     def open(self) -> None:
         """Open it."""
@@ -128,7 +128,7 @@ class Dock:
         self.plates: dict[str, pygame.Rect] = {}
         self.closes: dict[str, pygame.Rect] = {}
         self._folded: set[str] = set()
-        self._names: list[str] = []  # of the panels for which the place was chosen
+        self._chosen: list[tuple[str, int]] = []  # panels for which the place is
         self._recent: list[str] = []  # names, the one opened last first
         self._place: Place | None = None
         self._plot = self._room = pygame.Rect(0, 0, 0, 0)
@@ -193,8 +193,9 @@ class Dock:
         self._recent = [*reversed(new), *(name for name in self._recent if name in names)]
         framed = layout, *(panel.name for panel in shown if panel.frames)
         anew = framed != self._framed
-        if anew or names != self._names:  # not where only heights change
-            self._names = names
+        chosen = [(panel.name, panel.wanted) for panel in shown]
+        if anew or chosen != self._chosen:  # not where only heights change
+            self._chosen = chosen
             self._place = self._best(layout, frame, fit, tall, anew=anew) if shown else None
         place = self._place
         if self.plates.keys() != set(names):  # what covers the picture, before it is drawn
