@@ -399,12 +399,13 @@ class Island:
             body.look()
             h = min(h, body.time_to_turn(accuracy.entry / 8))
         few: cython.bint = self.any_solved and len(self.bodies) <= FEW_MEET
+        few = few and accuracy.max_overlap <= settings.DEFAULT_OVERLAP  # else speed is wanted
         for pair in self.pairs:
             met: cython.bint = few and pair.gap > accuracy.slop
             if met and (pair.a.solved or (not pair.is_wall and pair.b.solved)):
                 # What drives do after a blow they do not do before it: a substep ends there.
                 first: cython.double = pair.time_to_touch(h, accuracy.touch)
-                h = min(h, 0.99 * first) if first < h else h
+                h = 0.99 * first if first < h else h
             h = pair.time_to_touch(h, self.depth_of(pair))
             if pair.gap <= accuracy.slop and not (pair.a.is_robot and pair.b.is_robot):
                 h = min(h, max(settings.CONTACT_TURN / max(pair.turns(), 1e-300), 1e-3))

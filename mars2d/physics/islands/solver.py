@@ -364,7 +364,6 @@ class Solver:
             body.moved_x, body.moved_y, body.moved_angle = body.x, body.y, body.angle
             body.after_x, body.after_y, body.spin = fast.x, fast.y, chipmunk.spin_of(body.handle)
             if body.is_robot and body.engaged and body.grip_across < 1e300:
-                # What its wheels have borne, and what they could.
                 angle: cython.double = body.back.angle + self.lag(h) * body.back.spin
                 c, s = cosine_sine(angle)
                 self.take_reaction(body)
