@@ -66,15 +66,15 @@ def test_the_floor_holds_what_is_pushed_beside_its_middle(sampling_time):
 
 def test_drives_do_after_a_blow_what_they_do_whatever_the_sampling_time():
     """One robot pushes a box into another that comes against it."""
-    box = Box(mass=0.57, friction=0.25, ground_friction=0.26)
+    box = Box(pose=(0, 0, -0.0105), mass=0.573, friction=0.249, ground_friction=0.2575)
     robots = [
-        Robot(pose=(-0.5, -0.02, 0), friction=0.25, drive=Unicycle(max_force=7.1, max_torque=0.9)),
-        Robot(pose=(0.5, -0.1, np.pi), friction=0.06),
+        Robot(pose=(-0.5, -0.021, 0), friction=0.253, drive=Unicycle(max_force=7.1)),
+        Robot(pose=(0.5, -0.1, np.pi), friction=0.056),
     ]
     ends = []
     for sampling_time in (0.1, 0.005):
         world = world_of(robots, [box], stop_time=2, sampling_time=sampling_time)
-        drive(world, [[0.28, 0.2], [0.0, 0.0]], 2)
+        drive(world, [[0.2792, 0.1964], [0.0, 0.0]], 2)
         ends.append(np.hstack([world.pose, world.prop_pose]))
     assert ends[0][:2] == pytest.approx(ends[1][:2], abs=2e-3)
 
