@@ -20,6 +20,9 @@ STICK_TURN = 1.5
 HUGE = 1e9
 """A number of a command, in any unit, that every limited drive limits."""
 
+TWIST = Quantity("v", "m/s"), Quantity("omega", "rad/s")
+"""The inputs of drives that turn."""
+
 ROUNDING = 1e-12
 """The share by which a command may exceed its limits, so that limiting twice changes nothing."""
 

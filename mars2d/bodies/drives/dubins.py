@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from mars2d.bodies.drives.base import ROUNDING, Float, Turning
+from mars2d.bodies.drives.base import ROUNDING, TWIST, Float, Turning
 from mars2d.core.description import number, wrong
-from mars2d.core.quantity import Quantity
 
 
 class Dubins(Turning):
@@ -36,7 +35,7 @@ class Dubins(Turning):
                 "Dubins.max_acceleration", self.max_acceleration, "None: its speed never changes"
             )
 
-    inputs = (Quantity("v", "m/s"), Quantity("omega", "rad/s"))
+    inputs = TWIST
     """V [m/s] and omega [rad/s]."""
 
     @property

@@ -6,12 +6,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from mars2d.bodies.drives.base import ROUNDING, STICK_TURN, Float, Turning
+from mars2d.bodies.drives.base import ROUNDING, STICK_TURN, TWIST, Float, Turning
 from mars2d.core.description import choice, number
 from mars2d.core.quantity import Quantity
-
-TWIST = Quantity("v", "m/s"), Quantity("omega", "rad/s")
-"""The numbers of a command of two wheels."""
 
 
 class Wheeled(Turning):

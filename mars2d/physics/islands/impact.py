@@ -200,7 +200,7 @@ def find_shifts(solver: Solver, h: cython.double) -> cython.void:
     The engine moves bodies by the velocities that they had before. A force that lasts has acted
     half of the step, and so has all that it makes others do: no body has got more momentum than
     drives, floors, joints and pulls have given. Else it was an impact: it acted since bodies came
-    to touch. Of what touched before nothing is known.
+    to touch. Of what touched before nothing is known. `floor.hold` counts on forces that last.
     """
     for body in solver.bodies:
         body.held_by, body.lasting = 0.0, True
