@@ -305,7 +305,7 @@ class Run:
             left = max(left, int(lost.sum()))
             for what, gap in zip(deep, self._gaps(after), strict=True):
                 deep[what] = max(deep[what], -float(gap[~lost].min()))
-        if self._count > SETTLED and not free:
+        if done > 1 and self._count > SETTLED and not free:  # in the first, nobody is known to be
             raise ValueError("no robot was ever free to move as it was told")
         return {"steps": done, "lost": left, **deep}
 

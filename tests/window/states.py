@@ -235,7 +235,7 @@ def of_editor(editor):
         "base": [draft.base.title, draft.base.stop_time, draft.base.on_exit],
         "idle": editor.properties.idle(draft),
         "panel": {title: place.center for title, place in editor.panel.places.items()},
-        "rows": [[row.title, row.value] for row in editor.properties.rows()],
+        "rows": [[row.title, row.value or row.more] for row in editor.properties.rows()],
         "menu": menu,
         "chosen": (editor.menu if editor.menu.is_open else editor.panel).chosen,
         "focused": editor.panel.focused,

@@ -194,6 +194,8 @@ def test_what_nobody_gave_reads_as_what_it_is_and_can_be_taken_back(open_editor)
     box = Box(pose=(0, 0), length=0.2, width=0.2, height=0.01, material="wood")
     hands = chosen(open_editor, Scenario(robots=[Robot(pose=(3, 3, 0))], props=[box]))
     assert ["Mass", "automatic (0.24 kg)"] in hands.state["rows"]
+    assert ["Moment", "automatic (0.0016 kg m^2)"] in hands.state["rows"]
+    assert all(len(row.value) < 20 for row in hands.shown.editor.properties.rows())
     hands.row("Mass")
     hands.fill("1.5")
     hands.until(lambda s: ["Mass", "1.5 kg"] in s["rows"])

@@ -118,6 +118,19 @@ def differing(a, b):
     return int((pixels(a) != pixels(b)).any(axis=2).sum())
 
 
+def test_of_labels_that_overlap_the_last_is_written_alone():
+    def written(*places):
+        scene = Scene()
+        for place in places:
+            scene.text(place, "12 N", color="#000000", halo="#ffffff")
+        return coverage(painted(scene)).sum()
+
+    one = written((0, 0))
+    assert one > 10
+    assert written((0.5, 0.3), (-0.5, -0.3), (0, 0)) == one
+    assert written((0, 3), (0, -3), (0, 0)) == pytest.approx(3 * one)
+
+
 def test_a_picture_shows_the_robots_where_they_are():
     now, artist = frame(), Artist()
     surface = artist.paint(now)

@@ -5,8 +5,9 @@ from math import hypot
 import pytest
 
 from mars2d.core.errors import InputError
+from mars2d.core.scene import Scene
 from mars2d.record.interventions import Push
-from mars2d.window.run.push import pushed
+from mars2d.window.run.push import draw_pushes, pushed
 from tests.cases import each_case
 from tests.window.test_window_buttons import choose
 
@@ -73,3 +74,9 @@ def test_by_keys_alone_a_push_is_typed_and_a_mistake_is_said_in_place(open_windo
     assert "Push blue" in prompts.prompt.label
     window.press("Escape")
     assert prompts.prompt is None
+    scene, frame = Scene(), window.shown.player.frame
+    strong = Push(0, 2, (0.0, 0.0), (-900.0, 900.0), 1.0)  # its arrow is longer than the room
+    draw_pushes(scene, frame, [strong], window.shown.viewpoint.camera)
+    x, y = scene.shapes[-1].position
+    assert x == -3
+    assert 2 <= y < 2.5

@@ -77,20 +77,19 @@ class Painter:
         *,
         shaded: bool = True,
     ) -> None:
-        """Paint shapes in their order on a surface.
+        """Paint shapes in their order on a surface, and above them the texts with a halo.
 
-        shaded: whether the theme converts the colours, as for scenes; False for the theme's own.
+        Where two of these would overlap, the last one is written alone. shaded: whether the theme
+        converts the colours, as for scenes; False for the theme's own.
         """
         self._shade = self.theme.shade if shaded else str
-        texts: list[tuple[pygame.Surface, tuple[int, int]]] = []
+        labels: list[Text] = []
         for shape in shapes:
-            if isinstance(shape, Text):
-                texts += self._text(shape, camera)
-                continue
-            if texts:
-                surface.fblits(texts)
-                texts.clear()
-            if isinstance(shape, Circle):
+            if isinstance(shape, Text) and shape.halo:
+                labels.append(shape)
+            elif isinstance(shape, Text):
+                surface.fblits(self._text(shape, camera))
+            elif isinstance(shape, Circle):
                 self._circle(surface, shape, camera)
             elif isinstance(shape, Line):
                 self._line(surface, shape, camera)
@@ -100,7 +99,13 @@ class Painter:
                 self._arrow(surface, shape, camera)
             else:
                 self._image(surface, shape, camera)
-        surface.fblits(texts)
+        taken: list[pygame.Rect] = []
+        for label in reversed(labels):
+            lines = self._text(label, camera)
+            boxes = [image.get_rect(topleft=at).scale_by(1.0, 0.6) for image, at in lines]
+            if all(box.collidelist(taken) < 0 for box in boxes):
+                taken += boxes
+                surface.fblits(lines)
 
     # -- circles ------------------------------------------------------------------------------
 

@@ -122,13 +122,13 @@ class Stage:
             canvas.wakes.finish(surface, frame)
         seen = {layer.name for layer in layers.seen(frame.scenario.animation)}
         seen -= {layer.name for layer in standing()} | ({"trails"} if canvas.wakes else set())
+        shapes: list[Shape] = []
         for layer in LAYERS:
-            if layer.name == FIRST_BODIES:
-                paint(surface, beneath, camera)
+            shapes += beneath if layer.name == FIRST_BODIES else ()
             if layer.name in seen and layer.shapes is not None:
-                paint(surface, layer.shapes(frame).shapes, camera)
-            if layer.name == LAST_BODIES:
-                paint(surface, marks, camera)
+                shapes += layer.shapes(frame).shapes
+            shapes += marks if layer.name == LAST_BODIES else ()
+        paint(surface, shapes, camera)
         if layers.grid:
             bounds = grid_bounds(frame.scenario, camera, surface.get_size())
             numbers = labels(plot, camera, bounds, self.painter)

@@ -54,6 +54,8 @@ AUTOMATIC = "automatic"
 NO_LAW = "none: it stands still"
 GIVEN = 0.5
 """The value of a sensor's number that has no default."""
+LONG = 20
+"""The number of letters from which on a value stands below its title."""
 MAX_IDLE = 6
 """The most robots that are listed because they stand still."""
 
@@ -265,15 +267,13 @@ class Properties:
 
     def _fields(self, subject: Subject, but: Sequence[str] = ()) -> list[Entry]:
         """Return a row for each field that can be typed or chosen."""
-        return [
-            Entry(
-                _title(name).capitalize(),
-                partial(self._ask, subject, name),
-                value=subject.in_words(field),
-            )
-            for name, field in subject.plain.items()
-            if name not in but
-        ]
+        rows = []
+        for name, field in subject.plain.items():
+            if name not in but:
+                words, ask = subject.in_words(field), partial(self._ask, subject, name)
+                place = "value" if len(words) < LONG else "more"
+                rows.append(Entry(_title(name).capitalize(), ask, **{place: words}))
+        return rows
 
     # -- asking ---------------------------------------------------------------------------------
 
