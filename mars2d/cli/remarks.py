@@ -7,6 +7,7 @@ import inspect
 import re
 import textwrap
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
 from math import pi
 from types import FunctionType
 from typing import Any
@@ -27,6 +28,9 @@ ORDERED = (ast.Lt, ast.LtE, ast.Gt, ast.GtE)
 SENSED = re.compile(r".*\.sense\.(\w+)(\[.*\])?")
 """A reading in a law's code, or an item of it."""
 
+RETURNED = re.compile(r"(?:np\.(?:as)?array\()?(\w+)\)?")
+"""What a law returns as it is: a name, or its array."""
+
 _SLEEP = "sleep has no meaning in simulated time; compare robot.time"
 WAITING = {
     "time.sleep": _SLEEP,
@@ -44,13 +48,13 @@ MOST = 0.5
 """The share of cut commands above which a run gets a remark."""
 
 WHIRL = 30.0
-"""Rad/s that no robot on wheels turns at."""
+"""Rad/s that no robot on wheels turns at; it steers by no more than pi."""
 
 LATE = 10.0
 """How many times longer than a control step laws may take it without a remark."""
 
-STILL = 1e-3
-"""How far a blow may shift a prop that is said not to move, metres."""
+STILL, SHIFTED = 1e-3, 0.02
+"""How far a prop may go that is said not to move, and one that blows shifted only, metres."""
 
 
 def before(experiment: Experiment) -> Iterator[str]:
@@ -62,6 +66,8 @@ def before(experiment: Experiment) -> Iterator[str]:
     robots = experiment.scenario.robots
     laws = [*(robot.controller for robot in robots), experiment.control]
     yield from _of_laws(filter(None, laws), robots)
+    if experiment.control is not None and len(robots) == experiment.scenario.inputs:
+        yield from _of_rows(experiment.control, len(robots))
 
 
 class Run:
@@ -93,9 +99,11 @@ def _of_commands(world: World) -> Iterator[str]:
     for i, robot in enumerate(robots):
         for row, quantity in enumerate(robot.drive.inputs):
             asked = cuts.asked[row, i] or first_command[row, i]
-            turns = quantity.name == "omega" and robot.drive.wheel_names is not None
-            if turns and (_like_degrees(asked) or abs(asked) >= WHIRL):
-                yield f"{robot.name} was given {quantity.name} = {asked:g} rad/s{_meant(asked)}"
+            steers = quantity.kind == "angle"
+            spins = quantity.name == "omega" and (robot.drive.wheel_names or robot.drive.holonomic)
+            if (steers and abs(asked) > pi) or (spins and abs(asked) >= WHIRL):
+                given = f"{quantity.name} = {asked:g} {quantity.unit}"
+                yield f"{robot.name} was given {given}{_meant(asked)}"
     shares = cuts.count / (world.iteration + 1)
     cut = [
         i for i in np.argsort(-shares, kind="stable")
@@ -124,20 +132,31 @@ def _of_time(world: World) -> Iterator[str]:
 
 
 def _of_props(world: World) -> Iterator[str]:
-    """Yield remarks on props that robots pushed, and that the floor held."""
-    record, robots = world.record, world.scenario.robots
+    """Yield remarks on props that robots pushed or pulled, and that something held."""
+    record, scenario = world.record, world.scenario
     a, b = record.contacts["a"], record.contacts["b"]
-    for k, prop in enumerate(world.scenario.props):
-        way = np.ptp(record.prop_pose[:, :2, k], axis=0).max()
-        pushing = [robots[int(i)] for i in np.unique(a[b == len(robots) + k]) if i < len(robots)]
+    for index, prop in enumerate(scenario.props, len(scenario.robots)):
+        way = np.ptp(record.prop_pose[:, :2, index - len(scenario.robots)], axis=0).max()
+        touching = np.unique(np.concatenate([a[b == index], b[a == index]]))
+        near = [scenario.body_name(int(body)) for body in touching]
+        pushes = {robot.name: f" with {robot.push:.3g} N" for robot in scenario.robots}
+        ends = [(joint.a, joint.b) for joint in scenario.joints]
+        joined = {name for each in ends if prop.name in each for name in each}
+        pushing = [robot for robot in scenario.robots if robot.name in joined.union(near)]
         held = prop.resting_friction * prop.inertia.mass * GRAVITY
         push = sum(robot.push for robot in pushing)
-        if pushing and way < STILL and push < held:
+        moved = "did not move" if way < STILL else f"moved {1000 * way:.0f} mm only"
+        if not pushing or way >= SHIFTED:
+            continue
+        if push < held:
             who = str(pushing[0].name) if len(pushing) == 1 else f"{len(pushing)} robots"
             yield (
-                f"{prop.name} did not move: the floor holds {held:.3g} N, and the drives of {who} "
+                f"{prop.name} {moved}: the floor holds {held:.3g} N, and the drives of {who} "
                 f"push {push:.3g} N; lower its ground_friction or mass, or raise their max_force"
             )
+        elif len(near) > 1:
+            *names, last = (f"{name}{pushes.get(name, '')}" for name in near)
+            yield f"{prop.name} {moved}: it is between {', '.join(names)} and {last}"
 
 
 def _of_end(world: World) -> Iterator[str]:
@@ -147,7 +166,8 @@ def _of_end(world: World) -> Iterator[str]:
         return
     for i in np.flatnonzero(outside_polygon(x, y, np.array(area))):
         robot = world.scenario.robots[int(i)]
-        ranging = [s.key for s in robot.sensors if any(q.kind == "distance" for q in s.quantities)]
+        kinds = {sensor.key: {q.kind for q in sensor.quantities} for sensor in robot.sensors}
+        ranging = [key for key, known in kinds.items() if known & {"distance", "flag"}]
         if ranging:
             yield (
                 f"{robot.name} left the workspace, whose edge its {ranging[0]} does not see: "
@@ -184,9 +204,8 @@ def _of_laws(laws: Iterable[Callable[..., Any]], robots: Sequence[Robot]) -> Ite
         if all(quantity.kind == "flag" for quantity in sensor.quantities)
     }
     functions: dict[Any, None] = {}
-    for law in laws:
-        code, names = getattr(law, "__code__", None), getattr(law, "__globals__", {})
-        named = (names.get(name) for name in (code.co_names if code else ()))
+    for law in filter(None, map(_written, laws)):
+        named = (law.__globals__.get(name) for name in law.__code__.co_names)
         functions |= dict.fromkeys([law, *(f for f in named if isinstance(f, FunctionType))])
     for function in functions:
         kept: dict[str, str] = {}  # what is read, by the variable that keeps it
@@ -207,7 +226,37 @@ def _of_laws(laws: Iterable[Callable[..., Any]], robots: Sequence[Robot]) -> Ite
                     )
 
 
-def _nodes(function: Callable[..., Any]) -> Iterator[tuple[str, ast.AST]]:
+def _of_rows(law: Callable[..., Any], robots: int) -> Iterator[str]:
+    """Yield a remark on a law of as many robots as inputs that fills a row for each of them."""
+    filled: dict[str, str] = {}  # where lists and arrays get their rows, by their names
+    for place, node in _nodes(_written(law)):
+        into, row = "", None
+        if isinstance(node, ast.Call) and ast.unparse(node.func).endswith(".append"):
+            into, row = ast.unparse(node.func).removesuffix(".append"), node.args[0]
+        elif isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Subscript):
+            into = ast.unparse(node.targets[0].value)
+            row = node.value if isinstance(node.targets[0].slice, ast.Name) else None
+        elif isinstance(node, (ast.Return, ast.Yield)) and node.value is not None:
+            returned = RETURNED.fullmatch(ast.unparse(node.value))
+            if returned and returned[1] in filled:
+                yield (
+                    f"{filled[returned[1]]}: this is a row for each robot, and a command has a "
+                    f"column for each: with {robots} robots nothing else shows it; write "
+                    f"np.transpose({returned[1]}) where it is returned"
+                )
+        if isinstance(row, (ast.Tuple, ast.List)) and len(row.elts) == robots:
+            filled[into] = place
+
+
+def _written(law: Any) -> Any:
+    """Return the function that a law calls: within a partial, or of an object; None: compiled."""
+    while isinstance(law, partial):
+        law = law.func
+    called = law if hasattr(law, "__code__") else type(law).__call__
+    return getattr(called, "__func__", called) if hasattr(called, "__code__") else None
+
+
+def _nodes(function: Any) -> Iterator[tuple[str, ast.AST]]:
     """Yield the file and line, and the node, of all in a function whose source is known."""
     file = (definition(function) or "").partition(",")[0]
     try:

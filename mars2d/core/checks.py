@@ -229,7 +229,13 @@ def function(name: str, value: object, *arguments: str) -> object:
     words = " and ".join(arguments)
     if not callable(value):
         hint = "; write its name without brackets ()" if isinstance(value, RESULTS) else ""
+        hint = "; write its name without quotes" if isinstance(value, str) else hint
         raise wrong(name, value, f"a function of {count}, {words}{hint}")
+    if isinstance(value, type):
+        expected = f"an object of it, or a function of {count}, {words}"
+        raise InputError(
+            f"{name} = {value.__name__}: expected {expected}; write {value.__name__}(...)"
+        )
     try:
         given = inspect.signature(value)
     except ValueError:

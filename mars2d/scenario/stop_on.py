@@ -53,7 +53,8 @@ def bodies_named(
     """Return the bodies of each pair, by index, as contacts have them.
 
     bodies: all indices by name. obstacles: how many there are, -1, -2 and so on. Raises InputError
-    for a name that is neither of a body nor of a role, with the nearest.
+    for a name that is neither of a body nor of a role, with the nearest, and for a pair that can't
+    touch.
     """
     known = {WALL: frozenset(range(-obstacles, 0))}
     for addon in scenario.addons:
@@ -64,4 +65,10 @@ def bodies_named(
     for name in {name for pair in pairs for name in pair}:
         if name not in known:
             raise InputError(f"Scenario.stop_on: nothing is called {name!r}{nearest(name, known)}")
+    for a, b in pairs:
+        if WALL in (a, b) and not obstacles:
+            why = "there is no wall; write on_exit='wall', or add a Map"
+            raise InputError(f"Scenario.stop_on = {(a, b)}: {why}")
+        if a == b and len(known[a]) < 2:
+            raise InputError(f"Scenario.stop_on = {(a, b)}: nothing touches itself")
     return tuple((known[a], known[b]) for a, b in pairs)

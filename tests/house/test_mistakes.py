@@ -102,7 +102,13 @@ FILES = [
     ("def go(robot): return 0, 0\nred = Robot(controller=go())",
      "argument: 'robot'; a law is given without brackets: go"),
     ("def go(robot=0): return 0, 0\nred = Robot(controller=go())", "without brackets ()"),
+    ("def go(v, robot): return v, 0\nred = Robot(controller=go(1))", "functools.partial(go, 1)"),
+    ("def go(robot): return 0, 0\nred = Robot(controller='go')", "without quotes"),
+    ("class Go:\n    def __call__(self, robot): return 0, 0\nred = Robot(controller=Go)",
+     "write Go(...)"),
     ("class Lamps(Addon):\n    def on_end(self, world): pass", "write on_stop(self, world)"),
+    ("class Lamps(Addon):\n    def step(self, world): pass", "is never called; write on_step("),
+    ("class Lamps(Addon):\n    def __init__(self, n): pass", "fields stand in the class"),
     ("open('way.csv')", "relative names begin in the current folder, /"),
     ("def go(robot): return 0, 0", "give go(robot) to a robot: Robot(controller=go)"),
 ]  # fmt: skip
@@ -120,7 +126,12 @@ LAWS = [
     ("return robot.position[2], 0", "a position is (x, y); the angle is pose[2]"),
     ("return robot.pose[3], 0", "or pose[0] to pose[2]"),
     ("x, y = robot.pose\nreturn x, y", "a pose is three numbers: x, y, theta = robot.pose"),
-    ("return robot.pose(), 0", "it is an array: write it without the brackets ()"),
+    ("return robot.pose(), 0", "write it without the brackets: robot.pose"),
+    ("return robot.pose.x, 0", "a pose is three numbers: x, y, theta = robot.pose"),
+    ("return robot.proximity, 0", "did you mean 'sense.proximity'?"),
+    ("return robot.props, 0", "write robot.world, which has them"),
+    ("import math\nreturn math.sin(robot.pose), 0", "write np.cos in place of math.cos"),
+    ("return robot.pose.min < 0, 0", "it is called with brackets"),
     ("return robot.speed, 0", "write robot.velocity: x', y' [m/s], theta' [rad/s]"),
     ("return robot.sense('proximity'), 0", "write robot.sense.proximity"),
     ("return robot.sense['proximity'], 0", "write robot.sense.proximity"),
@@ -132,6 +143,10 @@ LAWS = [
      "np.linalg.norm(np.subtract(robot.pose[:2], (2, 0))) < 0.01"),
     ("return robot.world.robots[2].pose[0], 0",
      "there are robot.world.robots[0] to robot.world.robots[0]"),
+    ("return (robot.world\n    .robots[3]\n    .pose[0]), 0", "to robot.world.robots[0]"),
+    ("return robot.world.pose[0, 5], 0", "the last one is robot.world.pose[2, 0]"),
+    ("return robot.world.robots['red'].pose[0], 0", "robot.world.robots[0]: red"),
+    ("if robot.pose != (2, 0, 0): return 0, 0\nreturn 1, 0", "np.subtract(robot.pose, (2, 0, 0))"),
     ("return robot.neighbours[0].pose[0], 0", "robot.neighbours is empty"),
     ("return 0.2, 90 - robot.pose[2]", "if degrees are meant, write np.radians(88.5)"),
     ("return 3 - robot.pose[0], 2 - robot.pose[1]", "they mean v [m/s] and omega [rad/s]"),
@@ -179,6 +194,7 @@ TEAMS = [
     ("return 1, 0", "expected two rows and a column for each robot, shape (2, 3)"),
     ("world.pose[0] = 1", "a law can't change the world"),
     ("return world.robot[0]", "did you mean 'robots'?"),
+    ("return world.sense", "write world.robots[0], which has it"),
     ("integral += 1", "a function that assigns 'integral' has its own"),
 ]
 """Bodies of a team's law."""
@@ -280,6 +296,14 @@ def test_two_robots_commands_are_not_taken_for_rows(answer):
     for pairs in ("[(0.2, 0.1), (0.2, 0.1)]", "(0.2, 0.1), (0.2, 0.1)"):
         told = answer(f"{HEAD}scenario = Scenario(robots=2)\ndef control(world): return {pairs}\n")
         helps(told, "is each tuple a robot's command? Then write np.transpose(...) of them")
+    rows = "    rows = []\n    for robot in world.robots: rows.append([0.3, 0.1])\n    return rows"
+    items = rows.replace("[]", "np.zeros((2, 2))").replace("rows.append([0.3, 0.1])", "pass")
+    items += "\n    for i in range(2):\n        rows[i] = 0.3, 0.1\n    return np.array(rows)"
+    for body, line in ((rows, 10), (items, 13), (rows + ".T", 0), (items[:-5] + "rows.T)", 0)):
+        law = f"class Team:\n  def __call__(self, world):\n{body}\ncontrol = Team()\n"
+        told = answer(f"{HEAD}{law}scenario = Scenario(robots=2, stop_time=0.3)\n")
+        assert ("this is a row for each robot" in told) is (line > 0), told
+        assert not line or f"walk.py, line {line}: " in told
 
 
 @each_case("lines, place, words", FILES_OF_SCENARIOS)
@@ -295,6 +319,7 @@ def test_a_scenario_file(answer, lines, place, words):
     [
         (lambda record: record.sensors["sonar"], "the record has no sensor 'sonar'; known: front"),
         (lambda record: record.sensors["frnt"], "did you mean 'front'?"),
+        (lambda record: record.sensors.front, "write record.sensors['front']"),
         (lambda record: record.sensor_robots["sonar"], "the record has no sensor 'sonar'"),
         (lambda record: record.plot_signals(["x", "spee"]), "did you mean 'speed'?"),
         (lambda record: mars2d.load("way.npz"), "there is no such file in the current folder, /"),
