@@ -16,6 +16,7 @@ from mars2d.core.arithmetic import norms
 from mars2d.core.description import Check, Schema, accepts, real, wrong
 from mars2d.core.errors import InputError, shown
 from mars2d.core.plane import Outline, Point, is_clearly_convex
+from mars2d.core.usercode import definition
 
 MAX_ITEMS = 1_000_000
 """The longest list that a field may have; an iterator may have no end."""
@@ -123,6 +124,12 @@ def _check_ring(name: str, points: list[Point]) -> None:
         )
     if straight or ring.area < 1e-9:
         raise wrong(name, points, "a polygon with an area; its vertices lie on one line")
+
+
+@accepts(OUTLINE | {"minItems": 3})
+def polygon(name: str, value: object) -> Outline:
+    """Check a closed polygon of three or more vertices."""
+    return outline(name, value, 3)
 
 
 @accepts({"type": "array", "items": OUTLINE})
@@ -246,7 +253,9 @@ def function(name: str, value: object, *arguments: str) -> object:
     except TypeError:
         raise InputError(f"{called}: expected a function of exactly {count}, {words}") from None
     if (meant := (words, next(iter(parameters)))) in _OTHERWISE:
-        raise InputError(f"{called}: {_OTHERWISE[meant]}")
+        error = InputError(f"{called}: {_OTHERWISE[meant]}")
+        error.where = definition(value) if words == "the world" else None
+        raise error
     return value
 
 

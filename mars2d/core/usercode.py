@@ -137,13 +137,14 @@ def name_of(function: Callable[..., Any]) -> str:
 
 
 def definition(function: Callable[..., Any]) -> str | None:
-    """Return file and line of a function's definition.
+    """Return file and line of a function's definition, or of that of an object that is called.
 
     None if it is compiled, MARS2D's own, or made by `eval` or `exec`.
     """
     while isinstance(function, functools.partial):
         function = function.func
     code = getattr(inspect.unwrap(function), "__code__", None)
+    code = code or getattr(type(function).__call__, "__code__", None)
     if code is None or _is_ours(path := Path(code.co_filename)) or _is_no_file(path):
         return None
     return f"{path.name}, line {code.co_firstlineno}"

@@ -19,6 +19,7 @@ from mars2d.core import checks
 from mars2d.core.errors import InputError, nearest, one_line
 from mars2d.core.files import note_file
 from mars2d.core.hints import described
+from mars2d.core.usercode import definition
 from mars2d.scenario.policy import SUFFIX, Policy
 
 _counter = itertools.count()
@@ -101,12 +102,12 @@ def law_in(
     law = getattr(module, name, None)
     if law is None:
         functions = [key for key, value in vars(module).items() if inspect.isfunction(value)]
-        raise located(file.name, f"has no law {name!r}{nearest(name, functions)}")
+        raise InputError(f"{file.name}: has no law {name!r}{nearest(name, functions)}")
     if (args or values) and callable(law):
         law = partial(law, *args, **values)
     try:
         checks.function(name, law, subject)
     except InputError as error:
-        error.where = file.name
-        raise
+        error.where = None
+        raise InputError(f"{definition(law) or file.name}: {error}") from None
     return cast("Callable[[Any], Any]", law)

@@ -17,7 +17,7 @@ WALL = "wall"
 Pairs = tuple[tuple[str, str], ...]
 
 _TEXT = {"type": "string"}
-_PAIR = {"type": "array", "items": _TEXT, "minItems": 2, "maxItems": 2}
+_PAIR = {"items": _TEXT, "minItems": 2, "maxItems": 2}
 
 
 @accepts(
@@ -25,7 +25,11 @@ _PAIR = {"type": "array", "items": _TEXT, "minItems": 2, "maxItems": 2}
         "type": ["string", "array"],
         "if": {"type": "string"},
         "then": {"enum": [CONTACT]},
-        "else": {"items": _PAIR, "minItems": 1},
+        "else": {
+            "if": {"items": _TEXT},
+            "then": _PAIR,
+            "else": {"items": {"type": "array", **_PAIR}},
+        },
     }
 )
 def stop_on(name: str, value: object) -> str | Pairs | None:

@@ -97,7 +97,7 @@ FILES = [
     ("scenario = Scenario(robots=2", "line 7: '(' was never closed"),
     ("def controll(world): return 0, 0", "must be called control: rename controll(world)"),
     ("def update(world): return 0, 0", "must be called control: rename update(world)"),
-    ("def control(robot): return 0, 0", "control(robot): it is called with the world"),
+    ("def control(robot): return 0, 0", "line 7: control = control(robot): it is called "),
     ("def go(world): return 0, 0\nred = Robot(controller=go)", "it is called with a robot"),
     ("def go(robot): return 0, 0\nred = Robot(controller=go())",
      "argument: 'robot'; a law is given without brackets: go"),
@@ -176,7 +176,22 @@ FILES_OF_SCENARIOS = [
     ("pose = [0, 0, pi/2]", "line 4, robots[1]", "pi/2 is 1.57079633"),
     ("diameter = 2*0.15", "line 4, robots[1]", "TOML does not calculate"),
     ("pose = [0, 0, 90 deg]", "line 4, robots[1]", "90 degrees are 1.5708"),
-    ("pose = (0, 0, 0)", "line 4, robots[1]", "a list has brackets: [1, 2]"),
+    ("pose = [0, 0, 90\u00b0]", "line 4, robots[1]", "90 degrees are 1.5708"),
+    ("pose = (0, 0, 0)", "line 4, robots[1]", "a list has brackets and commas: [1, 2]"),
+    ("pose = 0, 0, 0", "line 4, robots[1]", "a list has brackets and commas: [1, 2]"),
+    ("pose = [0 0 0]", "line 4, robots[1]", "a list has brackets and commas: [1, 2]"),
+    ("pose = [0, 0,\n 1", "line 4", "Unclosed array"),
+    ("diameter = 0.3 m", "line 4, robots[1]", "numbers have no units"),
+    ("diameter = 5.", "line 4, robots[1]", "a digit stands behind the point: 5.0"),
+    ("diameter = 0.3;", "line 4, robots[1]", "nothing stands between lines"),
+    ("color = \u201cred\u201d", "line 4, robots[1]", "quotes are straight: 'red'"),
+    ('color = "red', "line 4, robots[1]", "a text has a quote at both ends"),
+    ("drive = { type: 'Car' }", "line 4, robots[1]", "a field is NAME = VALUE"),
+    ("drive = { type = 'Car', }", "line 4, robots[1]", "no comma stands before }"),
+    ("[robots]", "line 4, robots[1]", "a list of tables has double brackets, [[robots]]"),
+    ("[[robot]]", "line 4", "did you mean 'robots'?"),
+    ("stop_time = 3", "line 4, robots[1]", "fields of the scenario stand above the first table"),
+    ("controller = 'law.py:wolk'", "line 4, robots[1]", "law.py: has no law 'wolk'; did you mean"),
     ("color = null", "line 4, robots[1]", "what is None is left out, or is 'none'"),
     ("color = red", "line 4, robots[1]", "text stands in quotes: 'red'"),
     ("color: 'red'", "line 4, robots[1]", "a field is NAME = VALUE"),
@@ -308,6 +323,7 @@ def test_two_robots_commands_are_not_taken_for_rows(answer):
 
 @each_case("lines, place, words", FILES_OF_SCENARIOS)
 def test_a_scenario_file(answer, lines, place, words):
+    Path("law.py").write_text("def walk(robot): return 0, 0\n")
     Path("room.toml").write_text(f"format = 1\n[[robots]]\n[[robots]]\n{lines}\n")
     told = answer("", "run", "room.toml", "--headless")
     helps(told, words)
