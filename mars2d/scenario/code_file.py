@@ -102,12 +102,12 @@ def law_in(
     law = getattr(module, name, None)
     if law is None:
         functions = [key for key, value in vars(module).items() if inspect.isfunction(value)]
-        raise InputError(f"{file.name}: has no law {name!r}{nearest(name, functions)}")
+        raise located(file.name, f"has no law {name!r}{nearest(name, functions)}")
     if (args or values) and callable(law):
         law = partial(law, *args, **values)
     try:
         checks.function(name, law, subject)
     except InputError as error:
-        error.where = None
-        raise InputError(f"{definition(law) or file.name}: {error}") from None
+        error.where = definition(law) or file.name
+        raise
     return cast("Callable[[Any], Any]", law)

@@ -354,7 +354,10 @@ class _Reader:
     def _law(self, field: str, value: Any, subject: str) -> Law:
         reference = Reference.read(field, value)
         file = file_beside(Path(reference.file), self.path, "a law", [".py"])
-        return law_in(file, reference.name, subject)
+        try:
+            return law_in(file, reference.name, subject)
+        except InputError as error:  # its place there, and the line that names it
+            raise InputError(str(error)) from error
 
 
 def _kind(place: Place, name: object) -> type[Description]:
