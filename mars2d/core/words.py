@@ -32,7 +32,7 @@ _INSTEAD: dict[str, dict[str, str]] = {
         "sensor sensors": "Robot(sensors=[...])",
         "initialpose pose poses": "robots=[Robot(pose=p) for p in P.T], with P (3, n)",
         "nonholonomic drive": "Robot(drive=Holonomic()), or Robot(drive=Unicycle())",
-        "periodic wrap torus toroidal boundary": _TORUS,
+        "periodic wrap torus toroidal boundary boundaries periodicboundary": _TORUS,
         "colors colours basecolors": "animation=Animation(base_colors=[...])",
     },
     "Animation": {
@@ -40,7 +40,7 @@ _INSTEAD: dict[str, dict[str, str]] = {
         "color colour colors colours": "base_colors=[...]",
         "title": "Scenario(title=...)",
     },
-    "Scenario.on_exit": {"periodic wrap torus toroidal": _TORUS},
+    "Scenario.on_exit": {"periodic wrap wraparound torus toroidal": _TORUS},
     "Sensor": {
         "distance maxrange reach maxdistance": "range=...",
         "fov angle aperture opening": "field_of_view=...",
