@@ -407,21 +407,23 @@ class Island:
                 first: cython.double = pair.time_to_touch(h, accuracy.touch)
                 h = 0.99 * first if first < h else h
             h = pair.time_to_touch(h, self.depth_of(pair))
-            if pair.gap <= accuracy.slop and (few or not (pair.a.is_robot and pair.b.is_robot)):
-                h = min(h, max(self.turn_of(pair) / max(pair.turns(), 1e-300), 1e-3))
+            if pair.gap <= accuracy.slop:
+                h = min(h, max(self.turn_of(pair, few) / max(pair.turns(), 1e-300), 1e-3))
         for tie in self.ties:
             h = min(h, tie.time_to_jerk(accuracy.stretch, accuracy.joint_tolerance))
         return left / ceil(left / h - 1e-9)  # equal substeps settle best, and leave no sliver
 
-    def turn_of(self, pair: Pair) -> cython.double:
+    def turn_of(self, pair: Pair, few: cython.bint) -> cython.double:
         """Return by how much the normal of a pair in contact may turn, rad.
 
-        Two robots, whose speeds drives keep, must only stay in touch: their gap opens by half of
-        their distance times the square of that.
+        Two robots, whose speeds drives keep, must only stay in touch, in a crowd not even that: the
+        gap of discs opens by half of their distance times the square of that.
         """
-        if pair.a.is_robot and pair.b.is_robot:
+        if not (pair.a.is_robot and pair.b.is_robot):
+            return settings.CONTACT_TURN
+        if few and pair.a.is_disc and pair.b.is_disc:
             return sqrt(2 * self.accuracy.preload / pair.radii)
-        return settings.CONTACT_TURN
+        return 1e300
 
     def depth_of(self, pair: Pair) -> cython.double:
         """Return how deep a pair may be when a blow turns it.
