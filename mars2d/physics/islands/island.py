@@ -536,7 +536,9 @@ class Island:
 
         What was not pushed by anything has moved in closed form, whatever it touches.
         """
-        pushed: cython.bint = body.is_pushed()
+        fast: cython.double = length(body.before_x, body.before_y)
+        fast += body.reach * abs(body.before_spin)  # impulses that are rounding errors do not count
+        pushed: cython.bint = body.tied or body.pulled or body.pressure > 1e-12 * body.mass * fast
         body.ahead = pushed or body.solved
         if pushed or (body.solved and body.com != 0.0):
             self.solver.share_out(body, h, body.shift)
@@ -673,7 +675,10 @@ class Island:
         if b >= 0:
             row.add_speed(self.numbers[b], 1.0)
         else:
-            b = owner_of(a, b, row.x, row.y)
+            for pair in a.wall_pairs:
+                if pair.other == b:  # a wall, which may be of several obstacles
+                    b = pair.wall.owner(row.x, row.y)
+                    break
         self.stand(row, arbiter, count, swap)
         row.add_speed(a, -1.0)
         if swap:
@@ -701,17 +706,6 @@ def touching(a: Body, b: cython.int) -> Pair | None:
     while pair is not None and pair.other != b:
         pair = pair.next_touch
     return pair
-
-
-def owner_of(a: Body, b: cython.int, x: cython.double, y: cython.double) -> cython.int:
-    """Return the number of the obstacle that a body touches where, of a wall by its number.
-
-    A wall may be of several obstacles.
-    """
-    for pair in a.wall_pairs:
-        if pair.other == b:
-            return pair.wall.owner(x, y)
-    return b
 
 
 def draw_together(pair: Pair, way: cython.double) -> cython.void:
