@@ -7,7 +7,6 @@ import inspect
 import re
 import textwrap
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from functools import partial
 from math import pi
 from types import FunctionType
 from typing import Any
@@ -17,7 +16,7 @@ import numpy as np
 from mars2d.core.errors import counted
 from mars2d.core.materials import GRAVITY
 from mars2d.core.plane import outside_polygon
-from mars2d.core.usercode import definition
+from mars2d.core.usercode import definition, written
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.robot import Robot
 from mars2d.world.world import World
@@ -39,10 +38,6 @@ WAITING = {
     "input": "nobody answers while a simulation runs; make it a parameter of scenario(...)",
 }
 """Calls that would wait for somebody, and what to write instead."""
-
-BOUNDS = [f"max_{name}" for name in ("linear_speed", "angular_speed", "acceleration")]
-BOUNDS += ["max_steering", "max_steering_rate"]
-"""The bounds that a drive may have."""
 
 MOST = 0.5
 """The share of cut commands above which a run gets a remark."""
@@ -67,7 +62,7 @@ def before(experiment: Experiment) -> Iterator[str]:
     laws = [*(robot.controller for robot in robots), experiment.control]
     yield from _of_laws(filter(None, laws), robots)
     if experiment.control is not None and len(robots) == experiment.scenario.inputs:
-        yield from _of_rows(experiment.control, len(robots))
+        yield from _of_rows(written(experiment.control), len(robots))
 
 
 class Run:
@@ -113,11 +108,14 @@ def _of_commands(world: World) -> Iterator[str]:
         others = counted(len(cut) - 1, "other robot")
         rest = f", and most of those of {others}" if len(cut) > 1 else ""
         first, asked = robots[cut[0]], cuts.asked[:, cut[0]]
-        names = " and ".join(f"{q.name} [{q.unit}]" for q in first.drive.inputs)
+        bounds = " and ".join(
+            f"{each.name} [{each.unit}] from {low:.3g} to {high:.3g}"
+            for each, low, high in zip(first.drive.inputs, *first.drive.bounds, strict=True)
+        )
+        last = ", ".join(f"{number:.3g}" for number in asked[: len(first.drive.inputs)])
         yield (
             f"{shares[cut[0]]:.0%} of the commands of {first.name}{rest} were cut by the drive's "
-            f"bounds, {_bounds(first)}: they mean {names}, and the last was "
-            f"({', '.join(f'{number:.3g}' for number in asked[: len(first.drive.inputs)])})"
+            f"bounds, {bounds}: the last was ({last})"
         )
 
 
@@ -140,9 +138,9 @@ def _of_props(world: World) -> Iterator[str]:
         touching = np.unique(np.concatenate([a[b == index], b[a == index]]))
         near = [scenario.body_name(int(body)) for body in touching]
         pushes = {robot.name: f" with {robot.push:.3g} N" for robot in scenario.robots}
-        ends = [(joint.a, joint.b) for joint in scenario.joints]
-        joined = {name for each in ends if prop.name in each for name in each}
-        pushing = [robot for robot in scenario.robots if robot.name in joined.union(near)]
+        ends = [{joint.a, joint.b} for joint in scenario.joints]
+        joined = set(near).union(*(each for each in ends if prop.name in each))
+        pushing = [robot for robot in scenario.robots if robot.name in joined]
         held = prop.resting_friction * prop.inertia.mass * GRAVITY
         push = sum(robot.push for robot in pushing)
         moved = "did not move" if way < STILL else f"moved {1000 * way:.0f} mm only"
@@ -185,13 +183,6 @@ def _meant(value: float) -> str:
     return f", {turns:.3g} turns; if degrees are meant, write np.radians({value:g})"
 
 
-def _bounds(robot: Robot) -> str:
-    """Return the bounds of a drive that are set, in words."""
-    found = ((name, getattr(robot.drive, name, None)) for name in BOUNDS)
-    told = [f"{name}={value:g}" for name, value in found if value is not None]
-    return f"{type(robot.drive).__name__}({', '.join(told)})"
-
-
 def _of_laws(laws: Iterable[Callable[..., Any]], robots: Sequence[Robot]) -> Iterator[str]:
     """Yield remarks on the code of laws, and of the functions that they name.
 
@@ -204,7 +195,7 @@ def _of_laws(laws: Iterable[Callable[..., Any]], robots: Sequence[Robot]) -> Ite
         if all(quantity.kind == "flag" for quantity in sensor.quantities)
     }
     functions: dict[Any, None] = {}
-    for law in filter(None, map(_written, laws)):
+    for law in filter(None, map(written, laws)):
         named = (law.__globals__.get(name) for name in law.__code__.co_names)
         functions |= dict.fromkeys([law, *(f for f in named if isinstance(f, FunctionType))])
     for function in functions:
@@ -226,10 +217,10 @@ def _of_laws(laws: Iterable[Callable[..., Any]], robots: Sequence[Robot]) -> Ite
                     )
 
 
-def _of_rows(law: Callable[..., Any], robots: int) -> Iterator[str]:
+def _of_rows(law: FunctionType | None, robots: int) -> Iterator[str]:
     """Yield a remark on a law of as many robots as inputs that fills a row for each of them."""
     filled: dict[str, str] = {}  # where lists and arrays get their rows, by their names
-    for place, node in _nodes(_written(law)):
+    for place, node in _nodes(law):
         into, row = "", None
         if isinstance(node, ast.Call) and ast.unparse(node.func).endswith(".append"):
             into, row = ast.unparse(node.func).removesuffix(".append"), node.args[0]
@@ -246,14 +237,6 @@ def _of_rows(law: Callable[..., Any], robots: int) -> Iterator[str]:
                 )
         if isinstance(row, (ast.Tuple, ast.List)) and len(row.elts) == robots:
             filled[into] = place
-
-
-def _written(law: Any) -> Any:
-    """Return the function that a law calls: within a partial, or of an object; None: compiled."""
-    while isinstance(law, partial):
-        law = law.func
-    called = law if hasattr(law, "__code__") else type(law).__call__
-    return getattr(called, "__func__", called) if hasattr(called, "__code__") else None
 
 
 def _nodes(function: Any) -> Iterator[tuple[str, ast.AST]]:

@@ -40,8 +40,7 @@ def test_most_commands_far_beyond_the_bounds_are_told_with_what_they_mean():
     (told,) = remarks(Unicycle(max_linear_speed=0.5), lambda t: (3.0, 2.0))
     assert told == (
         "100% of the commands of red were cut by the drive's bounds, "
-        "Unicycle(max_linear_speed=0.5): they mean v [m/s] and omega [rad/s], "
-        "and the last was (3, 2)"
+        "v [m/s] from -0.5 to 0.5 and omega [rad/s] from -5 to 5: the last was (3, 2)"
     )
 
 

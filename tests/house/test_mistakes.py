@@ -149,7 +149,7 @@ LAWS = [
     ("if robot.pose != (2, 0, 0): return 0, 0\nreturn 1, 0", "np.subtract(robot.pose, (2, 0, 0))"),
     ("return robot.neighbours[0].pose[0], 0", "robot.neighbours is empty"),
     ("return 0.2, 90 - robot.pose[2]", "if degrees are meant, write np.radians(88.5)"),
-    ("return 3 - robot.pose[0], 2 - robot.pose[1]", "they mean v [m/s] and omega [rad/s]"),
+    ("return 3 - robot.pose[0], 2 - robot.pose[1]", "v [m/s] from -0.5 to 0.5 and omega"),
     ("if robot.sense.proximity < 0.5: return 0, 0\nreturn 1, 0",
      "line 9: robot.sense.proximity is True or False, and is compared with a number"),
     ("near = robot.sense.proximity\nif near > 1: return 0, 0\nreturn 1, 0",
