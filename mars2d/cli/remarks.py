@@ -65,23 +65,11 @@ def before(experiment: Experiment) -> Iterator[str]:
         yield from _of_rows(written(experiment.control), len(robots))
 
 
-class Run:
-    """Watches a run for what is legal and hardly meant."""
-
-    def __init__(self) -> None:
-        self._world: World | None = None
-
-    def __call__(self, world: World) -> None:
-        """Follow a world, as a watcher."""
-        self._world = world
-
-    def remarks(self) -> Iterator[str]:
-        """Yield remarks on the commands, the laws, the props and the end of the run so far."""
-        if self._world is not None and self._world.iteration:
-            yield from _of_commands(self._world)
-            yield from _of_time(self._world)
-            yield from _of_props(self._world)
-            yield from _of_end(self._world)
+def after(world: World) -> Iterator[str]:
+    """Yield remarks on the commands, the laws, the props and the end of a run so far."""
+    if world.iteration:
+        for remarks in (_of_commands, _of_time, _of_props, _of_end):
+            yield from remarks(world)
 
 
 def _of_commands(world: World) -> Iterator[str]:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from mars2d.addons.contest import Contest
 from mars2d.core.checks import items_of
 from mars2d.core.description import accepts, wrong
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.interfaces import ScenarioLike
+from mars2d.scenario.roles import roles_of
 
 CONTACT = "contact"
 """Ends a run with the first touch of any two bodies, or of a body and an obstacle."""
@@ -61,10 +61,7 @@ def bodies_named(
     touch.
     """
     known = {WALL: frozenset(range(-obstacles, 0))}
-    for addon in scenario.addons:
-        if isinstance(addon, Contest):
-            teams = zip(addon.roles, addon.teams(scenario), strict=True)
-            known |= {role: frozenset(team) for (role, _), team in teams}
+    known |= {role: frozenset(team) for role, team in roles_of(scenario).items()}
     known |= {name: frozenset([body]) for name, body in bodies.items()}
     for name in {name for pair in pairs for name in pair}:
         if name not in known:

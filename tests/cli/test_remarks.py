@@ -9,7 +9,7 @@ from mars2d import Car, Dubins, Holonomic, Omni, Robot, Scenario, Unicycle
 from mars2d.addons import Map
 from mars2d.bodies import Box, Rope
 from mars2d.cli.command_line import main
-from mars2d.cli.remarks import Run, before
+from mars2d.cli.remarks import after, before
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.sensors import Proximity, RangeFinder
 from mars2d.world.loop import simulate
@@ -30,10 +30,8 @@ def test_a_pose_in_radians_is_not(theta):
 
 def remarks(drive, command, steps=20):
     """Return the remarks on a run under a law."""
-    watched = Run()
     robot = Robot(name="red", drive=drive, controller=lambda robot: command(robot.time))
-    simulate(Experiment(Scenario(robots=[robot], stop_time=0.1 * steps)), watchers=[watched])
-    return [*watched.remarks()]
+    return experiment(robot, stop_time=0.1 * steps)
 
 
 def test_most_commands_far_beyond_the_bounds_are_told_with_what_they_mean():
@@ -76,10 +74,8 @@ def test_angles_of_steering_and_spins_in_any_direction_are_told_too():
 
 def experiment(robot, **scenario):
     """Return the remarks on a run of one robot."""
-    watched = Run()
     found = Scenario(**{"robots": [robot], "stop_time": 2.0} | scenario)
-    simulate(Experiment(found), watchers=[watched])
-    return [*watched.remarks()]
+    return [*after(simulate(Experiment(found)))]
 
 
 def ahead(robot):
