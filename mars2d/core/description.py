@@ -257,8 +257,8 @@ class Description:
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
         if "__init__" in vars(cls):
-            instead = "fields stand in the class, as `n: int = 3`; on_start prepares a run"
-            raise InputError(f"{cls.__name__}.__init__: a class of this kind has none; {instead}")
+            instead = "its fields stand in the class, as `n: int = 3`, and are given by name"
+            raise InputError(f"{cls.__name__}.__init__ is not called: {instead}")
         _keep_checks(cls)
         dataclasses.dataclass(frozen=True, kw_only=True, repr=False)(cls)
         cls.__init__ = _gated(cls, cls.__init__)  # type: ignore[method-assign]

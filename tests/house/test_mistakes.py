@@ -108,7 +108,7 @@ FILES = [
      "write Go(...)"),
     ("class Lamps(Addon):\n    def on_end(self, world): pass", "write on_stop(self, world)"),
     ("class Lamps(Addon):\n    def step(self, world): pass", "is never called; write on_step("),
-    ("class Lamps(Addon):\n    def __init__(self, n): pass", "fields stand in the class"),
+    ("class Lamps(Addon):\n    def __init__(self, n): pass", "is not called: its fields stand"),
     ("open('way.csv')", "relative names begin in the current folder, /"),
     ("def go(robot): return 0, 0", "give go(robot) to a robot: Robot(controller=go)"),
 ]  # fmt: skip
