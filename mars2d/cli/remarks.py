@@ -43,7 +43,7 @@ MOST = 0.5
 """The share of cut commands above which a run gets a remark."""
 
 WHIRL = 30.0
-"""Rad/s that no robot on wheels turns at; it steers by no more than pi."""
+"""Rad/s that no robot on wheels turns at, nor rad that it starts at; it steers by pi at most."""
 
 LATE = 10.0
 """How many times longer than a control step laws may take it without a remark."""
@@ -56,7 +56,7 @@ def before(experiment: Experiment) -> Iterator[str]:
     """Yield remarks on an experiment that has not been run."""
     for robot in experiment.scenario.robots:
         theta = robot.pose[2]
-        if _like_degrees(theta):
+        if abs(theta) >= WHIRL and theta % 15 == 0:  # such as 45 or -180
             yield f"{robot.name} starts at theta = {theta:g} rad{_meant(theta)}"
     robots = experiment.scenario.robots
     laws = [*(robot.controller for robot in robots), experiment.control]
@@ -159,11 +159,6 @@ def _of_end(world: World) -> Iterator[str]:
                 f"{robot.name} left the workspace, whose edge its {ranging[0]} does not see: "
                 "Scenario(on_exit='wall') makes it a wall"
             )
-
-
-def _like_degrees(value: float) -> bool:
-    """Return whether a number of radians is rather one of degrees, such as 45 or -180."""
-    return abs(value) >= 30 and value % 15 == 0
 
 
 def _meant(value: float) -> str:
