@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from functools import partial
-
 import pygame
 
 from mars2d import Robot, Scenario, World
-from mars2d.output.raster.layout import Layout, fitted
+from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
 from mars2d.window.panels.lesson import Lesson
 from mars2d.window.screen.viewpoint import Viewpoint
-from mars2d.window.widgets.dock import Dock, Panel
+from mars2d.window.widgets.dock import Dock
+from mars2d.window.widgets.panel import Panel
 from tests.cases import each_case
 from tests.window.written import Written, painter
 
@@ -55,9 +54,7 @@ class Seen:
         self.draw(spot)
 
     def draw(self, spot=None):
-        *_, low, high = self.frame.scenario.bounds
-        fit = partial(fitted, self.frame.scenario.bounds, self.layout.size)
-        room = self.dock.arrange(self.layout, self.frame, fit, high - low)
+        room = self.dock.arrange(self.layout, self.frame, self.frame.scenario.bounds)
         self.view.arrange(self.layout, self.frame.scenario, room)
         self.dock.draw(self.surface, self.frame, spot)
         xmin, xmax, ymin, ymax = self.frame.scenario.bounds
@@ -199,6 +196,6 @@ def test_what_scrolls_is_wrapped_beside_its_bar(tmp_path):
     lesson, surface = Lesson(pen, tmp_path / "long.py"), Written((300, 120))
     for width in range(270, 300):
         lesson.draw(surface, pygame.Rect(0, 0, width, 120), frame_of(SQUARE))
-        assert lesson.cut
+        assert lesson.scroll.cut
     assert surface.texts
     assert not [text for text in surface.texts if "…" in text]

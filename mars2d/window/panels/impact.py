@@ -9,9 +9,9 @@ from mars2d.record.contact import met
 from mars2d.record.frame import Frame
 from mars2d.record.impacts import card
 from mars2d.window.panels.readout import MINUS
-from mars2d.window.panels.rows import Row, RowsPanel
 from mars2d.window.screen.player import Player
-from mars2d.window.widgets.words import Word
+from mars2d.window.widgets.panel import Panel
+from mars2d.window.widgets.rows import Row, Word
 
 LINE, SIZE = 18.0, 12.5
 """The heights of a line and of its letters, points."""
@@ -22,7 +22,7 @@ SILENT = "No touch began in this control step. N: on to the next contact, Shift 
 Table = list[tuple[str, str, str, str]]
 
 
-class Impact(RowsPanel):
+class Impact(Panel):
     """Shows velocities, energies and momenta before and after each touch of a control step.
 
     It opens with the keys that go from contact to contact.

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Sequence
-from functools import partial
 from typing import Any
 
 import pygame
@@ -24,10 +23,10 @@ from mars2d.window.panels.readout import (
     state_of,
     touching,
 )
-from mars2d.window.panels.rows import DOT, Row, RowsPanel
 from mars2d.window.panels.sensorplot import rows_of
 from mars2d.window.screen.picking import Selection
-from mars2d.window.widgets.words import Word, write_line
+from mars2d.window.widgets.panel import DOT, Panel
+from mars2d.window.widgets.rows import Row, Word, write_line
 
 LEAST = 176.0
 """The least height of the inspector, points."""
@@ -46,7 +45,7 @@ DRAW_INTERVAL = 1 / 15
 """The shortest time between two drawings while only numbers change, seconds."""
 
 
-class Inspector(RowsPanel):
+class Inspector(Panel):
     """Shows the state, contacts, forces, sensors and messages of one body.
 
     selection: which body is shown; where none is, the inspector is closed. clock: seconds; the
@@ -93,7 +92,7 @@ class Inspector(RowsPanel):
         late = frame is not self._frame and self._clock() - self._read_at >= DRAW_INTERVAL
         if of != self._of or late:
             self._sections = list(self._made(frame, body))
-            self.scroll = self.scroll if of[:1] == self._of[:1] else 0.0
+            self.scroll.at = self.scroll.at if of[:1] == self._of[:1] else 0.0
             self._of, self._frame, self._read_at = of, frame, self._clock()
         return self._sections
 
@@ -105,24 +104,25 @@ class Inspector(RowsPanel):
         dot = Word(DOT, theme.shade(frame.scenario.body_colors[body]), 17)
         name = Word(str(frame.scenario.bodies[body].name), theme.ink, 17, bold=True)
         kind = Word(f"{kind_of(frame, body)}{CLOSE}", theme.muted)
-        head = self.line(HEAD, [dot, name], [kind])
-        yield self.stack(head, *map(self._numbers, state_of(frame, body)), self.line(GAP))
+        yield self.line(HEAD, [dot, name], [kind])
+        yield from map(self._numbers, state_of(frame, body))
         if frame.scenario.physics == "contact":
             touched = " · ".join(contacts_of(frame, body)) or "none"
             numbers = [*force_of(frame, body), *dynamics_of(frame, body)]
-            yield self._headed("contacts", touched, *map(self._numbers, numbers))
+            yield self._heading("contacts", touched)
+            yield from map(self._numbers, numbers)
         for sensor, reading in readings_of(frame, body):
             kind_of_it, key = snake_case(type(sensor).__name__), sensor.key
-            drawn = rows_of(self, frame, body, sensor, reading)
-            yield self._headed(key, "" if kind_of_it == key else kind_of_it, *drawn)
+            yield self._heading(key, "" if kind_of_it == key else kind_of_it)
+            yield from rows_of(self, frame, body, sensor, reading)
         if body < len(robots) and any(each.carries_messages for each in frame.scenario.addons):
             heard = [
                 f"{sender}, {frame.time - sent:.1f} s ago: {rounded(text)}"
                 for sender, sent, text in inbox(frame, body)
             ]
             heard += [""] * (MAX_MESSAGES - len(heard))  # whatever has come
-            words = (self.line(LINE, [Word(each, theme.text)]) for each in heard)
-            yield self._headed("inbox", "" if heard[0] else "nothing yet", *words)
+            yield self._heading("inbox", "" if heard[0] else "nothing yet")
+            yield from (self.line(LINE, [Word(each, theme.text)]) for each in heard)
 
     def _numbers(self, row: tuple[str, Sequence[tuple[str, str]]]) -> Row:
         """Return a label and up to three numbers in columns, as large as there is room."""
@@ -143,21 +143,19 @@ class Inspector(RowsPanel):
 
         return Row(ROW, draw)
 
-    def _headed(self, title: str, more: str, *rows: Row) -> Row:
-        """Return a section with a line above it, its title and more at the right."""
-        return self.stack(
-            Row(TITLE, partial(self._draw_heading, title, more)), *rows, self.line(GAP)
-        )
+    def _heading(self, title: str, more: str) -> Row:
+        """Return the head of a section: a line above it, its title and more at the right."""
 
-    def _draw_heading(
-        self, title: str, more: str, surface: pygame.Surface, rect: pygame.Rect
-    ) -> None:
-        """Draw a line above a section, its title and more at the right."""
-        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
-        surface.fill(theme.edge, (rect.left, rect.top - round(GAP / 2 * ui), rect.width, 1))
-        room = rect.width - fonts.width(title, 12.5 * ui, bold=True) - 12 * ui
-        at_end = Word(fonts.shorten(more, 12 * ui, room), theme.muted, 12)
-        write_line(surface, rect, self.painter, [Word(title, theme.ink, bold=True)], [at_end])
+        def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
+            ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
+            surface.fill(theme.edge, (rect.left, rect.top + round(GAP / 2 * ui), rect.width, 1))
+            line = pygame.Rect(rect.left, 0, rect.width, rect.height - round(GAP * ui))
+            line.bottom = rect.bottom
+            room = rect.width - fonts.width(title, 12.5 * ui, bold=True) - 12 * ui
+            at_end = Word(fonts.shorten(more, 12 * ui, room), theme.muted, 12)
+            write_line(surface, line, self.painter, [Word(title, theme.ink, bold=True)], [at_end])
+
+        return Row(GAP + TITLE, draw)
 
 
 def readings_of(frame: Frame, body: int) -> Iterator[tuple[Sensor, Any]]:

@@ -8,14 +8,14 @@ from pathlib import Path
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
 from mars2d.scenario.lesson import lesson_of
-from mars2d.window.panels.rows import Row, RowsPanel
-from mars2d.window.widgets.words import Word
+from mars2d.window.widgets.panel import Panel
+from mars2d.window.widgets.rows import Row, Word
 
 LINE, SIZE = 18.0, 13.0
 """The heights of a line and of its letters, points."""
 
 
-class Lesson(RowsPanel):
+class Lesson(Panel):
     """Shows the docstring of an experiment's file, part by part.
 
     parts: their headings, "" for the first one, and their texts.

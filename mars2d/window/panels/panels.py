@@ -15,13 +15,12 @@ from mars2d.window.panels.lesson import Lesson
 from mars2d.window.panels.parameter_panel import ParameterPanel, Set
 from mars2d.window.panels.predictions import Predictions
 from mars2d.window.panels.printed import Printed
-from mars2d.window.panels.rows import RowsPanel
 from mars2d.window.panels.scopes import Scopes
 from mars2d.window.screen.picking import Selection
 from mars2d.window.screen.player import Player
 from mars2d.window.screen.saving import Saver
 from mars2d.window.screen.source import RECORDING
-from mars2d.window.widgets.dock import Dock, Panel
+from mars2d.window.widgets.dock import Dock
 from mars2d.window.widgets.notes import Notes
 from mars2d.world.timeline import Timeline
 
@@ -80,10 +79,6 @@ class Panels(Dock):
         """The names of panels with nothing to show."""
         return [panel.name for panel in self.panels if not panel.offered]
 
-    def named(self, name: str) -> Panel:
-        """Return the panel of a name."""
-        return next(panel for panel in self.panels if panel.name == name)
-
     def is_on(self, name: str) -> bool:
         """Return whether there is an open panel of this name."""
         return any(panel.is_open for panel in self.panels if panel.name == name)
@@ -105,5 +100,5 @@ class Panels(Dock):
         """Scroll the panels that have more rows, as the wheel over them does."""
         turned = pygame.Event(pygame.MOUSEWHEEL, x=0, y=3 * notches)
         for panel in self.panels:
-            if isinstance(panel, RowsPanel) and panel.is_open and panel.cut:
+            if panel.is_open and panel.scroll.cut:
                 panel.handle(turned)

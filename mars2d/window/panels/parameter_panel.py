@@ -16,13 +16,13 @@ from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.parameters import PREFIX, Parameter
-from mars2d.window.panels.rows import Row, RowsPanel
 from mars2d.window.screen.picking import Selection
 from mars2d.window.screen.player import Player
 from mars2d.window.widgets.buttons import draw_icon
+from mars2d.window.widgets.panel import Panel
+from mars2d.window.widgets.rows import Row, Word, write_line
 from mars2d.window.widgets.slider import Slider
 from mars2d.window.widgets.text_field import TextField
-from mars2d.window.widgets.words import Word, write_line
 from mars2d.world.timeline import Timeline
 
 Pixel = tuple[int, int]
@@ -55,7 +55,7 @@ MAX_TYPED, TYPED_WIDTH = 12, 104.0
 """The longest number that can be typed, and the width of its field, points."""
 
 
-class ParameterPanel(RowsPanel):
+class ParameterPanel(Panel):
     """Shows the parameters of an experiment, and of the body that is selected, as sliders.
 
     A slider is dragged, or moved by arrow keys once it was clicked; a number that is typed then is
@@ -79,11 +79,10 @@ class ParameterPanel(RowsPanel):
         super().__init__(painter)
         self._player, self._selection = player, selection
         self._set_to, self._clock = set_to, clock
-        self._known: tuple[Experiment | None, int | None] | None = None
+        self._known: tuple[Experiment | None, int | None] = None, None
         self._lines: list[Line] = []
         self._sliders: dict[str, Slider] = {}
-        self.places: dict[str, pygame.Rect] = {}  # of rows, by the names of parameters
-        self.resets: dict[str, pygame.Rect] = {}
+        self.resets: dict[str, pygame.Rect] = {}  # buttons, by the names of parameters
         self.focus: str | None = None  # the parameter that keys go to
         self.typed = TextField(accepts=TYPED, most=MAX_TYPED)  # a number
         self.said: tuple[str, Say] = "", "info"
@@ -107,21 +106,27 @@ class ParameterPanel(RowsPanel):
         """Return the lines; the parameters are read again where something was set or selected."""
         source, body = self._player.source, self._selection.body
         experiment = source.experiment if isinstance(source, Timeline) else None
-        if experiment is not None and body is not None:
-            body = body if body < len(experiment.scenario.bodies) else None
-        if self._known is None or self._known[0] is not experiment or self._known[1] != body:
-            selected = body is not None and (self._known is None or self._known[1] != body)
-            self._known = experiment, body
-            try:
-                self._lines = [] if experiment is None else list(_lines(experiment, body))
-            except InputError as error:  # of a Range of a law
-                self._lines, self.said = [("No parameters", None)], (str(error), "error")
-            if selected and self._lines:  # let its sliders be seen
-                heading = max(k for k, (_, each) in enumerate(self._lines) if each is None)
-                self.scroll = _top(self._lines[:heading])
-            if self.focus not in {each.name for _, each in self._lines if each is not None}:
-                self.leave()
+        (before, last), self._known = self._known, (experiment, body)
+        if experiment is None or (experiment is before and body == last):
+            return self._lines
+        try:
+            self._lines = list(_lines(experiment, body))
+        except InputError as error:  # of a Range of a law
+            self._lines, self.said = [("No parameters", None)], (str(error), "error")
+        if body is not None and body != last:  # let its sliders be seen
+            self.scroll.at = self._top(self._last_heading)
+        if self.focus not in {each.name for _, each in self._lines if each is not None}:
+            self.leave()
         return self._lines
+
+    @property
+    def _last_heading(self) -> int:
+        return max(k for k, (_, each) in enumerate(self._lines) if each is None)
+
+    def _top(self, line: int) -> float:
+        """Return the height above a line, pixels."""
+        above = (HEADING if each is None else ROW for _, each in self._lines[:line])
+        return self.painter.ui * sum(above)
 
     # -- drawing ------------------------------------------------------------------------------
 
@@ -131,13 +136,13 @@ class ParameterPanel(RowsPanel):
         return [
             self.line(HEADING, [Word(text, color, bold=True)])
             if parameter is None
-            else Row(ROW, partial(self._draw_row, text, parameter))
+            else Row(ROW, partial(self._draw_row, text, parameter), parameter.name)
             for text, parameter in self._look()
         ]
 
     def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:
-        """Draw the rows, and note where they are."""
-        self.places, self.resets = {}, {}
+        """Draw the rows, and note where their buttons are."""
+        self.resets = {}
         super().draw(surface, rect, frame)
 
     def foot(self, width: float) -> Sequence[Row]:
@@ -153,13 +158,11 @@ class ParameterPanel(RowsPanel):
         """Draw a name, its value, the button that puts it back, and below them the slider."""
         ui, theme, pad = self.painter.ui, self.painter.theme, round(PAD * self.painter.ui)
         name, held = parameter.name, parameter.name == self._held
-        self.places[name] = place.clip(surface.get_clip())
         if name == self.focus:
             self.painter.panel(surface, place, theme.key, 5 * ui, theme.selected)
         value = self._value if held else parameter.value
         above = pygame.Rect(place.left + pad, place.top, place.width - 2 * pad, round(NAME * ui))
         line = pygame.Rect(above.bottomleft, (above.width, place.bottom - above.bottom))
-        line = line.inflate(-round(12 * ui), -round(4 * ui))
         if value != parameter.default and not held:
             reset = pygame.Rect(0, 0, round(RESET * ui), round(RESET * ui))
             reset.midright = above.right + pad // 2, above.centery
@@ -167,8 +170,7 @@ class ParameterPanel(RowsPanel):
             self.resets[name] = reset
             above.width = reset.left - pad // 2 - above.left
         number = Word(_number(parameter, value), theme.ink, SIZE, bold=value != parameter.default)
-        unit = [Word(parameter.unit, theme.muted, 0.9 * SIZE)] if parameter.unit else []
-        words = [number, *unit]
+        words = [number, *[Word(parameter.unit, theme.muted, 0.9 * SIZE)] * bool(parameter.unit)]
         if name == self.focus and self.typed.text:
             box = pygame.Rect(0, 0, round(TYPED_WIDTH * ui), round((NAME - 3) * ui))
             box.midright, words = above.midright, []
@@ -177,6 +179,7 @@ class ParameterPanel(RowsPanel):
             above.width = box.left - 2 * pad - above.left
         write_line(surface, above, self.painter, [Word(text, theme.text, SIZE)], words)
         slider = self._sliders[name] = Slider(parameter.low, parameter.high)
+        line = line.inflate(-round(12 * ui), -round(4 * ui))
         slider.draw_value(surface, line, self.painter, value, parameter.default, held=held)
 
     def _words(self) -> tuple[str, Say]:
@@ -286,7 +289,9 @@ class ParameterPanel(RowsPanel):
             step = parameter.step * (1 if name == "right" else -1)
             self._set(parameter.name, parameter.nearest(parameter.value + step))
         elif name in ("up", "down"):
-            self._focus_next(parameter.name, 1 if name == "down" else -1)
+            names = [*self.parameters()]
+            number = names.index(parameter.name) + (1 if name == "down" else -1)
+            self.focus_on(names[number % len(names)])
         elif name in ("return", "enter") and self.typed.text:
             self._take(parameter)
         elif name == "escape" and self.typed.text:
@@ -297,22 +302,16 @@ class ParameterPanel(RowsPanel):
             return False
         return True
 
-    def _focus_next(self, name: str, way: int) -> None:
-        """Let the next slider, or the one before, have the focus."""
-        names = [*self.parameters()]
-        self.focus_on(names[(names.index(name) + way) % len(names)])
-
     def focus_on(self, name: str | None) -> None:
         """Let a slider have the focus, and be seen; None: the first, of what is selected."""
         self.leave()
         names = ["" if each is None else each.name for _, each in self._look()]
-        if name is None:
-            last = max((k for k, found in enumerate(names) if not found), default=0)
-            name = next((found for found in (*names[last:], *names) if found), None)
+        if name is None and any(names):
+            name = next(filter(None, [*names[self._last_heading :], *names]))
         self.focus, self.said = name, ("", "info")
         if name in names:
-            top = _top(self._lines[: names.index(name)])
-            self.scroll = min(max(self.scroll, top + ROW - self.room), top)
+            top = self._top(names.index(name))
+            self.scroll.bring(top, top + ROW * self.painter.ui)
 
     def _take(self, parameter: Parameter) -> None:
         """Set the number that was typed."""
@@ -341,15 +340,10 @@ def _lines(experiment: Experiment, body: int | None) -> Iterator[Line]:
         yield parameter.name.rpartition(".")[2], parameter
     if not found:
         yield "No parameters in this file", None
-    if body is not None:
+    if body is not None and body < len(experiment.scenario.bodies):
         yield str(experiment.scenario.bodies[body].name), None
         for parameter in experiment.parameters(body):
             yield parameter.name.rpartition(".")[2].replace("_", " "), parameter
-
-
-def _top(lines: Sequence[Line]) -> float:
-    """Return the height of lines, points."""
-    return sum(HEADING if parameter is None else ROW for _, parameter in lines)
 
 
 def _number(parameter: Parameter, value: float) -> str:

@@ -12,8 +12,8 @@ from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.theme import Theme
 from mars2d.record.frame import Frame
 from mars2d.scenario.prediction import SIGNS, Prediction, cells, number, summary
-from mars2d.window.panels.rows import DOT, Row, RowsPanel
-from mars2d.window.widgets.words import Word
+from mars2d.window.widgets.panel import DOT, Panel
+from mars2d.window.widgets.rows import Row, Word
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
 
@@ -44,7 +44,7 @@ class Reading(NamedTuple):
     error: LawError | None
 
 
-class Predictions(RowsPanel):
+class Predictions(Panel):
     """Shows predictions as a table: predicted, measured, tolerance, and whether they agree.
 
     `checks` is written for a run that has ended. While one goes on, it is asked a few times a

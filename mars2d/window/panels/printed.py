@@ -10,9 +10,9 @@ from typing import Any
 
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
-from mars2d.window.panels.rows import Row, RowsPanel
 from mars2d.window.screen.player import Player
-from mars2d.window.widgets.words import Word
+from mars2d.window.widgets.panel import Panel
+from mars2d.window.widgets.rows import Row, Word
 
 MOST = 200
 """How many lines are kept."""
@@ -20,7 +20,7 @@ LINE, SIZE, TIME = 17.0, 12.5, 11.5
 """The heights of a line, of its letters and of those of its time, points."""
 
 
-class Printed(RowsPanel):
+class Printed(Panel):
     """Shows the lines that were printed, each with the time of the run.
 
     lines: times [s] and texts, the last one first.

@@ -34,8 +34,8 @@ from mars2d.window.widgets.plot import (
     limits_of,
     polylines,
 )
-from mars2d.window.widgets.words import GAP as WORD_GAP
-from mars2d.window.widgets.words import Word, write_line
+from mars2d.window.widgets.rows import GAP as WORD_GAP
+from mars2d.window.widgets.rows import Word, write_line
 from mars2d.world.record import Record
 from mars2d.world.timeline import Timeline
 

@@ -13,8 +13,8 @@ from mars2d.output.raster.brushes import rgba
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Float, Frame
 from mars2d.sensors.base import Sensor
-from mars2d.window.panels.rows import Row, RowsPanel
-from mars2d.window.widgets.words import Word
+from mars2d.window.widgets.panel import Panel
+from mars2d.window.widgets.rows import Row, Word
 
 ROW, BARS = 18.0, 40.0
 """The heights of a number or of colours, and of bars, points."""
@@ -23,7 +23,7 @@ MAX_LINES = 6
 """How many numbers are written; more are drawn as bars."""
 
 
-def rows_of(panel: RowsPanel, frame: Frame, robot: int, sensor: Sensor, reading: Any) -> list[Row]:
+def rows_of(panel: Panel, frame: Frame, robot: int, sensor: Sensor, reading: Any) -> list[Row]:
     """Return a sensor's reading on a robot: numbers, colours, or bars.
 
     Bars are those of now, from left to right as the robot sees where they are of beams.

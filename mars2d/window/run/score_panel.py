@@ -9,10 +9,10 @@ import pygame
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
 from mars2d.scenario.roles import roles_of
-from mars2d.window.panels.rows import DOT, Row, RowsPanel
 from mars2d.window.run.play import NEXT, Play, Seat
 from mars2d.window.widgets.help import draw_cap
-from mars2d.window.widgets.words import Word
+from mars2d.window.widgets.panel import DOT, Panel
+from mars2d.window.widgets.rows import Row, Word
 
 TIME, ROW, LINE, KEYS, WORDS, GAP = 34.0, 24.0, 18.0, 36.0, 32.0, 8.0
 """The heights of the time left, a row, a line of text, keys, who has won, and gaps, points."""
@@ -22,7 +22,7 @@ MAX_LINES = 3
 """The most lines of why a game has ended."""
 
 
-class ScorePanel(RowsPanel):
+class ScorePanel(Panel):
     """Shows how a game stands, the keys of those who play, and in the end who has won and why."""
 
     name, title, remembered = "score", "The game", False

@@ -10,6 +10,7 @@ import pygame
 from mars2d.output.raster.painter import Painter
 from mars2d.window.widgets.actions import CONTROL, MODIFIERS, label_of
 from mars2d.window.widgets.help import draw_veil
+from mars2d.window.widgets.rows import Scroll
 from mars2d.window.widgets.text_field import TextField
 
 ROW, MORE, PAD, BOX = 30.0, 18.0, 8.0, 15.0
@@ -18,6 +19,8 @@ SIZE, SMALL = 14.5, 12.5
 """The heights of letters of an entry and of the line below it, points."""
 SCALE, LEAST = 0.9, 220.0
 """How large a docked menu is, beside others, and the width below which it gets smaller, points."""
+NOTCH = 40.0
+"""How far a notch of the wheel scrolls, pixels."""
 CHOSEN = "✓"
 """The value that marks the entry of what holds now, which is chosen when a menu opens."""
 TICK = [(0.22, 0.52), (0.42, 0.74), (0.80, 0.26)]
@@ -71,7 +74,7 @@ class Menu:
         self.plate = pygame.Rect(0, 0, 0, 0)
         self._places: list[tuple[int, Entry, pygame.Rect]] = []
         self._chosen, self._typed = 0, ""  # the number of an entry; letters typed so far
-        self._first = 0  # the entry at the top, where there is no room for all
+        self._scroll = Scroll()
         self._sought = False  # whether the chosen entry is to be brought into view
         self._stays = self._asks = self._pointed = False
 
@@ -113,7 +116,7 @@ class Menu:
         self.name, self._entries, self.corner = name, entries, corner
         self._stays, self._asks = stays or asks, asks
         now = (k for k, entry in enumerate(entries()) if entry.value == CHOSEN)
-        self._typed, self._first, self._chosen = "", 0, next(now, 0) - 1
+        self._typed, self._scroll, self._chosen = "", Scroll(), next(now, 0) - 1
         self._move(1)
 
     def close(self) -> None:
@@ -145,7 +148,7 @@ class Menu:
             self._pointed = bool(self.plate.collidepoint(event.pos))
             return self._pointed
         if event.type == pygame.MOUSEWHEEL:
-            self._first, self._sought = max(0, self._first - event.y), False
+            self._scroll.at, self._sought = self._scroll.at - event.y * NOTCH, False
             return True
         if event.type != pygame.MOUSEBUTTONDOWN:
             return False
@@ -271,12 +274,7 @@ class Menu:
                 painter.panel(surface, place, theme.key, 5 * ui, edge)
             before = self._before(entry, entries, ui)
             self._draw_entry(surface, entry, place, painter, ui, before)
-        (first, *_), (last, *_) = self._places[0], self._places[-1]
-        signs = (("▴", first > 0, "midtop"), ("▾", last + 1 < len(entries), "midbottom"))
-        for sign, there, side in signs:
-            if there:
-                at = {side: getattr(self.plate, side)}
-                painter.write(surface, sign, 12 * ui, theme.muted, **at)
+        self._scroll.draw_bar(surface, painter, self.plate.inflate(-4 * ui, -16 * ui))
 
     def _arrange(
         self, entries: Sequence[Entry], bounds: pygame.Rect, painter: Painter, ui: float
@@ -284,30 +282,16 @@ class Menu:
         """Place the plate and the entries that are seen, the chosen one among them if sought."""
         pad, heights = round(PAD * ui), [_height(entry, ui) for entry in entries]
         width, height = bounds.size if self._docked else self.size(painter)
-        room = min(height, bounds.height) - 2 * pad
-        self._chosen = min(self._chosen, len(entries) - 1)
-        first = min(self._first, len(entries) - 1)
-        if self._sought:
-            first = max(0, min(first, self._chosen))
-            while first < self._chosen and sum(heights[first : self._chosen + 1]) > room:
-                first += 1
-        while first > 0 and sum(heights[first - 1 :]) <= room:
-            first -= 1
-        self._first = first
-        seen = first + 1
-        while seen < len(entries) and sum(heights[first : seen + 1]) <= room:
-            seen += 1
-        able = [k for k in range(first, seen) if entries[k].act is not None]
-        self._chosen = min(able, key=lambda k: abs(k - self._chosen), default=self._chosen)
-        tall = bounds.height if self._docked else sum(heights[first:seen]) + 2 * pad
-        self.plate = pygame.Rect(self.corner, (min(width, bounds.width), tall)).clamp(bounds)
+        size = min(width, bounds.width), min(height, bounds.height)
+        self.plate = pygame.Rect(self.corner, size).clamp(bounds)
         if self._asks:
             self.plate.center = bounds.center
-        top, self._places = self.plate.top + pad, []
-        for k in range(first, seen):
-            place = pygame.Rect(self.plate.left + pad, top, self.plate.width - 2 * pad, heights[k])
-            self._places.append((k, entries[k], place))
-            top += heights[k]
+        self._chosen = min(self._chosen, len(entries) - 1)
+        sought = max(self._chosen, 0) if self._sought else None
+        seen = self._scroll.seen(heights, self.plate.inflate(-2 * pad, -2 * pad), sought)
+        self._places = [(k, entries[k], place) for k, place in seen]
+        able = [k for k, entry, _ in self._places if entry.act is not None]
+        self._chosen = min(able, key=lambda k: abs(k - self._chosen), default=self._chosen)
 
     def _draw_entry(
         self,
