@@ -252,7 +252,8 @@ class Window(PlayerWindow):
 
     def _draw_notes(self, surface: pygame.Surface) -> None:
         off, painter = self._selected_pixel(self.player.frame), self.looks.painter
-        self.notes.draw(surface, self.layout.plot, painter, time.monotonic(), off)
+        plot, now = self.layout.plot, time.monotonic()
+        self.notes.draw(surface, plot, painter, now, self.dock.free, off)
 
     def _draw_dock(self, surface: pygame.Surface, frame: Frame) -> None:
         """Draw the panels, away from the selected body where the arena makes no room for them."""

@@ -65,7 +65,7 @@ class Help:
             return
         area, ui, theme = surface.get_rect(), painter.ui, painter.theme
         area.height, area.top = area.height - layout.header.bottom, layout.header.bottom
-        wide, high, (least, most) = area.width / ui - 2 * PAD, area.height / ui - 16, WORDS
+        wide, high, (least, most) = area.width / ui - 3 * PAD, area.height / ui - 16, WORDS
         count = max(1, min(MOST, int((wide + BETWEEN) / (CAPS + least + BETWEEN))))
         width = round(min(CAPS + most, (wide + BETWEEN) / count - BETWEEN) * ui)
         rows = [row for named in groups for row in _rows(painter, *named, width)]
@@ -74,7 +74,7 @@ class Help:
         self.page = min(self.page, self.pages - 1)
         draw_veil(surface, painter, area)
         pad, step = round(PAD * ui), width + round(BETWEEN * ui)
-        plate = pygame.Rect(0, 0, min(count, len(columns)) * step + pad, 0)
+        plate = pygame.Rect(0, 0, min(count, len(columns)) * step + 2 * pad - step + width, 0)
         plate.height = round((TOP + max(map(height_of, columns)) + PAD) * ui)
         plate.center = area.center
         painter.panel(surface, plate, theme.plate, 14 * ui, theme.edge)
