@@ -142,6 +142,24 @@ def test_a_panel_of_what_is_selected_leaves_the_arena_where_it_is_until_it_is_fi
     assert not seen.draw().dock.plates["inspector"].colliderect(seen.arena)
 
 
+def test_panels_stay_where_they_stand_when_one_has_more_to_say_and_move_for_another():
+    panels = [Plain(f"panel{k}", least=50.0, wanted=60.0) for k in range(3)]
+    for panel in panels[:2]:
+        panel.wanted = True
+    seen = Seen(panels, (1152, 648), WIDE)
+    corners = [plate.topleft for plate in seen.dock.plates.values()]
+    assert len(corners) == 2
+    arena, strip = seen.arena, min(top for _, top in corners)
+    assert strip > arena.bottom
+    panels[0].size = 50.0, 900.0
+    assert seen.draw().arena == arena
+    assert [plate.topleft for plate in seen.dock.plates.values()] == corners
+    panels[2].wanted = True
+    seen.draw()
+    assert len(seen.dock.plates) == 3
+    assert min(plate.top for plate in seen.dock.plates.values()) < strip, "there is more room"
+
+
 def test_a_panel_is_closed_by_its_button_and_opened_by_name():
     panels = some(2)
     seen = Seen(panels)
