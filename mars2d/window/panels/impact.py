@@ -8,10 +8,9 @@ from mars2d.output.raster.painter import Painter
 from mars2d.record.contact import met
 from mars2d.record.frame import Frame
 from mars2d.record.impacts import card
-from mars2d.window.panels.readout import MINUS
 from mars2d.window.screen.player import Player
 from mars2d.window.widgets.panel import Panel
-from mars2d.window.widgets.rows import Row, Word
+from mars2d.window.widgets.rows import Row, Word, minus
 
 LINE, SIZE = 18.0, 12.5
 """The heights of a line and of its letters, points."""
@@ -47,7 +46,7 @@ class Impact(Panel):
         """Return a line of a card; that without a label has the names."""
         theme = self.painter.theme
         ink = theme.text if label else theme.ink
-        words = (Word(each.replace("-", MINUS), ink, SIZE, not label) for each in numbers)
+        words = (Word(minus(each), ink, SIZE, not label) for each in numbers)
         ends = [(end, [word]) for end, word in zip(ENDS, words, strict=True)]
         return self.line(LINE, [Word(label, theme.muted, SIZE)], ends=ends)
 

@@ -14,7 +14,7 @@ from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Float, Frame
 from mars2d.sensors.base import Sensor
 from mars2d.window.widgets.panel import Panel
-from mars2d.window.widgets.rows import Row, Word
+from mars2d.window.widgets.rows import Row, Word, minus
 
 ROW, BARS = 18.0, 40.0
 """The heights of a number or of colours, and of bars, points."""
@@ -78,10 +78,9 @@ def _draw_bars(
 
 def _in_words(value: float, quantity: Quantity) -> str:
     """Return a number in words, with its unit; angles in degrees."""
-    if quantity.kind == "angle" and np.isfinite(value):
-        return f"{round(float(np.degrees(value))):d}°".replace("-", "\N{MINUS SIGN}")
     if not np.isfinite(value):
         return "nothing" if np.isnan(value) or value > 0 else str(value)
+    if quantity.kind == "angle":
+        return minus(f"{round(float(np.degrees(value))):d}°")
     text = f"{value:.3f}" if abs(value) < 10 else f"{value:.4g}"
-    unit = quantity.unit.replace("^2", "²")
-    return f"{text} {unit}".replace("-", "\N{MINUS SIGN}").strip()
+    return minus(f"{text} {quantity.unit.replace('^2', '²')}".strip())

@@ -118,3 +118,8 @@ def write_line(
 def height_of(rows: Sequence[Row]) -> float:
     """Return the height of rows together, points."""
     return sum(row.height for row in rows)
+
+
+def minus(text: str) -> str:
+    """Return a text with true minus signs in place of hyphens."""
+    return text.replace("-", "\N{MINUS SIGN}")
