@@ -28,8 +28,6 @@ from mars2d.window.screen.picking import Selection
 from mars2d.window.widgets.panel import DOT, Panel
 from mars2d.window.widgets.rows import Row, Word, write_line
 
-LEAST = 176.0
-"""The least height of the inspector, points."""
 GAP = 9.0
 """The gap between two sections, points."""
 HEAD, TITLE, ROW, LINE = 36.0, 21.0, 19.0, 17.0
@@ -54,7 +52,7 @@ class Inspector(Panel):
     """
 
     name, title, headed, frames, remembered = "inspector", "Inspector", False, False, False
-    least = LEAST
+    least = 176.0
 
     def __init__(
         self,
@@ -78,10 +76,6 @@ class Inspector(Panel):
     def close(self) -> None:
         """Show none."""
         self.selection.body = None
-
-    def heights(self, frame: Frame, width: float) -> tuple[float, float]:
-        """Return the least and the wanted height at a width, points."""
-        return LEAST, max(super().heights(frame, width)[1], LEAST)
 
     def rows(self, frame: Frame, width: float) -> Sequence[Row]:  # noqa: ARG002
         """Return the sections as they were last read, or as they are now."""

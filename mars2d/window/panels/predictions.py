@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple
 
 from mars2d.core.errors import LawError
@@ -94,15 +94,13 @@ class Predictions(Panel):
     def rows(self, frame: Frame, width: float) -> Sequence[Row]:  # noqa: ARG002
         """Return the titles of the columns, and two rows for each prediction, or why none."""
         found, muted = self.reading.predictions, self.painter.theme.muted
-        titles = [
-            (end, [Word(title, muted, 11.5)]) for title, end in zip(TITLES, ENDS, strict=True)
-        ]
-        each = [row for prediction in found for row in self._rows_of(prediction, width)]
-        return [self.line(LINE, ends=titles), *each] if found else self._said(width)
+        if not found:
+            return self._said(width)
+        titles = self.line(LINE, ends=self._columns([Word(each, muted, 11.5) for each in TITLES]))
+        return [titles, *(row for each in found for row in self._rows_of(each, width))]
 
-    def heights(self, frame: Frame, width: float) -> tuple[float, float]:
-        """Return the least and the wanted height; nothing measured yet makes neither lower."""
-        return self.least, max(self.least, super().heights(frame, width)[1])
+    def _columns(self, words: Iterable[Word]) -> list[tuple[float, list[Word]]]:
+        return [(end, [word]) for end, word in zip(ENDS, words, strict=True)]
 
     def foot(self, width: float) -> Sequence[Row]:
         """Return lines about the run, and about values that could not be read."""
@@ -127,11 +125,8 @@ class Predictions(Panel):
         shown = [self._fitted(value, p.tolerance, room) for value in (p.predicted, measured)]
         numbers = (SIGNS[p.bound] + shown[0], shown[1], cells(p)[-1])
         inks = (theme.text, color if self.reading.finished else theme.text, theme.text)
-        words = [
-            Word(number, ink, NUMBER, k == 1)
-            for k, (number, ink) in enumerate(zip(numbers, inks, strict=True))
-        ]
-        ends = [(end, [word]) for end, word in zip(ENDS, words, strict=True)]
+        cells_of = zip(numbers, inks, strict=True)
+        ends = self._columns(Word(*cell, NUMBER, k == 1) for k, cell in enumerate(cells_of))
         if p.unit:
             ends[-1][1].append(Word(p.unit, theme.muted, 12))
         return [head, self.line(LINE, ends=ends), self.line(GAP)]

@@ -197,15 +197,12 @@ class Page:
 
 @lru_cache(maxsize=128)
 def _image(path: Path, size: tuple[int, int]) -> pygame.Surface | None:
-    """Return the picture of a file, as large as it has to be; None if it can't be read."""
+    """Return the middle of the picture of a file in some size; None if it can't be read."""
     try:
         found = pygame.image.load(path)
     except (OSError, pygame.error):
         return None
-    image = pygame.Surface(found.get_size(), 0, 32)
-    image.blit(found, (0, 0))
-    share = max(size[0] / image.get_width(), size[1] / image.get_height())
-    wide = [max(1, round(share * side)) for side in image.get_size()]
-    image = pygame.transform.smoothscale(image, wide)
-    left, top = ((have - want) // 2 for have, want in zip(wide, size, strict=True))
-    return image.subsurface((left, top, *size)).copy()
+    part = pygame.Rect(0, 0, *size).fit(found.get_rect())
+    image = pygame.Surface(part.size, 0, 32)
+    image.blit(found, (0, 0), part)
+    return pygame.transform.smoothscale(image, size)

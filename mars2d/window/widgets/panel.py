@@ -83,7 +83,7 @@ class Panel:
         run: else the arena would change its size while it is watched.
         """
         wanted = height_of(self.rows(frame, width)) + height_of(self.foot(width))
-        return min(self.least, wanted), wanted
+        return self.least, max(self.least, wanted)
 
     def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:
         """Draw the content within a rectangle, which is at least as high as the least height.
