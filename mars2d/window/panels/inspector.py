@@ -30,12 +30,10 @@ from mars2d.window.widgets.rows import Row, Word, write_line
 
 GAP = 9.0
 """The gap between two sections, points."""
-HEAD, TITLE, ROW, LINE = 36.0, 21.0, 19.0, 17.0
-"""The heights of the name, a section's title, a row of numbers and a line of text, points."""
+HEAD, TITLE = 36.0, 21.0
+"""The heights of the name and of a section's title, points."""
 CLOSE = 5 * " "
 """The room for the button that closes it."""
-SIZE = 12.5
-"""The height of letters where they have room, points."""
 LABEL = 0.22
 """The room for the label of a row, in parts of the width."""
 
@@ -98,7 +96,7 @@ class Inspector(Panel):
         dot = Word(DOT, theme.shade(frame.scenario.body_colors[body]), 17)
         name = Word(str(frame.scenario.bodies[body].name), theme.ink, 17, bold=True)
         kind = Word(f"{kind_of(frame, body)}{CLOSE}", theme.muted)
-        yield self.line(HEAD, [dot, name], [kind])
+        yield self.line([dot, name], [kind], HEAD)
         yield from map(self._numbers, state_of(frame, body))
         if frame.scenario.physics == "contact":
             touched = " · ".join(contacts_of(frame, body)) or "none"
@@ -116,26 +114,15 @@ class Inspector(Panel):
             ]
             heard += [""] * (MAX_MESSAGES - len(heard))  # whatever has come
             yield self._heading("inbox", "" if heard[0] else "nothing yet")
-            yield from (self.line(LINE, [Word(each, theme.text)]) for each in heard)
+            yield from (self.line([Word(each, theme.text)]) for each in heard)
 
     def _numbers(self, row: tuple[str, Sequence[tuple[str, str]]]) -> Row:
-        """Return a label and up to three numbers in columns, as large as there is room."""
-        (what, numbers), theme, ui = row, self.painter.theme, self.painter.ui
-        widest = max(self.painter.fonts.width(f"{a}{b}", SIZE * ui) for a, b in numbers)
-
-        def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
-            room = (1 - LABEL) * rect.width / len(numbers) - 14 * ui
-            size = SIZE * min(1.0, room / widest)
-            ends = [
-                (
-                    LABEL + (1 - LABEL) * k / len(numbers),
-                    [Word(name, theme.muted, size), Word(value, theme.ink, size)],
-                )
-                for k, (name, value) in enumerate(numbers, 1)
-            ]
-            self.line(ROW, [Word(what, theme.muted, size)], ends=ends).draw(surface, rect)
-
-        return Row(ROW, draw)
+        """Return a label and up to three numbers in columns."""
+        (what, numbers), theme = row, self.painter.theme
+        pairs = ((Word(name, theme.muted), Word(each, theme.ink)) for name, each in numbers)
+        words = [word for pair in pairs for word in pair]
+        ends = [LABEL + (1 - LABEL) * k / len(numbers) for k in range(1, len(numbers) + 1)]
+        return self.table(words, ends, [Word(what, theme.muted)])
 
     def _heading(self, title: str, more: str) -> Row:
         """Return the head of a section: a line above it, its title and more at the right."""
@@ -146,7 +133,7 @@ class Inspector(Panel):
             line = pygame.Rect(rect.left, 0, rect.width, rect.height - round(GAP * ui))
             line.bottom = rect.bottom
             room = rect.width - fonts.width(title, 12.5 * ui, bold=True) - 12 * ui
-            at_end = Word(fonts.shorten(more, 12 * ui, room), theme.muted, 12)
+            at_end = Word(fonts.shorten(more, 12.5 * ui, room), theme.muted)
             write_line(surface, line, self.painter, [Word(title, theme.ink, bold=True)], [at_end])
 
         return Row(GAP + TITLE, draw)

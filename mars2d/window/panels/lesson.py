@@ -11,9 +11,6 @@ from mars2d.scenario.lesson import lesson_of
 from mars2d.window.widgets.panel import Panel
 from mars2d.window.widgets.rows import Row, Word
 
-LINE, SIZE = 18.0, 13.0
-"""The heights of a line and of its letters, points."""
-
 
 class Lesson(Panel):
     """Shows the docstring of an experiment's file, part by part.
@@ -37,6 +34,6 @@ class Lesson(Panel):
         """Return the lines, each part under its heading."""
         theme, found = self.painter.theme, list[Row]()
         for heading, text in self.parts:
-            found += self.wrapped(LINE, Word(heading, theme.ink, SIZE, bold=True), width)
-            found += self.wrapped(LINE, Word(text, theme.text, SIZE), width)
+            found += self.wrapped(Word(heading, theme.ink, bold=True), width)
+            found += self.wrapped(Word(text, theme.text), width)
         return found

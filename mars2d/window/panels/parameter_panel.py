@@ -19,7 +19,7 @@ from mars2d.scenario.parameters import PREFIX, Parameter
 from mars2d.window.screen.picking import Selection
 from mars2d.window.screen.player import Player
 from mars2d.window.widgets.buttons import draw_icon
-from mars2d.window.widgets.panel import Panel
+from mars2d.window.widgets.panel import LINE, Panel
 from mars2d.window.widgets.rows import Row, Word, write_line
 from mars2d.window.widgets.slider import Slider
 from mars2d.window.widgets.text_field import TextField
@@ -40,9 +40,8 @@ NAME, PAD = 20.0, 6.0
 """The height of a row's name, above its slider, and the gap beside both, points."""
 RESET = 18.0
 """The side of the button at the end of a row that puts it back, points."""
-WORDS, LINES, MAX_LINES = 17.0, 2, 4
-"""The height of a line of the panel's message, points; how many have room, and how many there are
-at most."""
+LINES, MAX_LINES = 2, 4
+"""How many lines of the panel's message have room, and how many there are at most."""
 LEAST_ROWS = 3
 """The rows that are seen at least."""
 EVERY = 0.1
@@ -65,7 +64,7 @@ class ParameterPanel(Panel):
     """
 
     name, title = "parameters", "Parameters"
-    least = LEAST_ROWS * ROW + HEADING + LINES * WORDS + 4
+    least = LEAST_ROWS * ROW + HEADING + LINES * LINE + 4
 
     def __init__(
         self,
@@ -134,7 +133,7 @@ class ParameterPanel(Panel):
         """Return the headings, and a row for each parameter."""
         color = self.painter.theme.muted
         return [
-            self.line(HEADING, [Word(text, color, bold=True)])
+            self.line([Word(text, color, bold=True)], high=HEADING)
             if parameter is None
             else Row(ROW, partial(self._draw_row, text, parameter), parameter.name)
             for text, parameter in self._look()
@@ -149,8 +148,8 @@ class ParameterPanel(Panel):
         """Return the effect of the last setting, or else words about the slider with the focus."""
         text, kind = self._words()
         color = self.painter.theme.error.ink if kind == "error" else self.painter.theme.muted
-        lines = [*self.wrapped(WORDS, Word(text, color), width, MAX_LINES)]
-        return [self.line(4), *lines, *[self.line(WORDS)] * (LINES - len(lines))]
+        lines = [*self.wrapped(Word(text, color), width, MAX_LINES)]
+        return [self.gap(4), *lines, *[self.gap(LINE)] * (LINES - len(lines))]
 
     def _draw_row(
         self, text: str, parameter: Parameter, surface: pygame.Surface, place: pygame.Rect

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from mars2d.core.errors import LawError
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.theme import Theme
 from mars2d.record.frame import Frame
-from mars2d.scenario.prediction import SIGNS, Prediction, cells, number, summary
+from mars2d.scenario.prediction import Prediction, cells, summary
 from mars2d.window.widgets.panel import DOT, Panel
 from mars2d.window.widgets.rows import Row, Word
 from mars2d.world.timeline import Timeline
@@ -24,10 +24,8 @@ SHARE = 0.04
 
 TITLES, ENDS = ("predicted", "measured", "tolerance"), (0.28, 0.58, 1.0)
 """The columns, and where they end, in parts of the width."""
-NAME, LINE, GAP = 18.0, 17.0, 6.0
-"""The heights of a name, of a line of words and of the gap below, points."""
-NUMBER = 13.0
-"""The height of numbers, points."""
+GAP = 6.0
+"""The height of the gap below a prediction, points."""
 MAX_WORDS = 6
 """The most lines of words about values that could not be read."""
 
@@ -96,11 +94,8 @@ class Predictions(Panel):
         found, muted = self.reading.predictions, self.painter.theme.muted
         if not found:
             return self._said(width)
-        titles = self.line(LINE, ends=self._columns([Word(each, muted, 11.5) for each in TITLES]))
-        return [titles, *(row for each in found for row in self._rows_of(each, width))]
-
-    def _columns(self, words: Iterable[Word]) -> list[tuple[float, list[Word]]]:
-        return [(end, [word]) for end, word in zip(ENDS, words, strict=True)]
+        titles = self.table([Word(each, muted) for each in TITLES], ENDS)
+        return [titles, *(row for each in found for row in self._rows_of(each))]
 
     def foot(self, width: float) -> Sequence[Row]:
         """Return lines about the run, and about values that could not be read."""
@@ -110,35 +105,24 @@ class Predictions(Panel):
         theme, reading = self.painter.theme, self.reading
         failed = reading.error is not None and reading.finished
         color = theme.error.ink if failed else theme.muted
-        return [*self.wrapped(LINE, Word(self._words(), color, 12), width, MAX_WORDS)]
+        return [*self.wrapped(Word(self._words(), color), width, MAX_WORDS)]
 
-    def _rows_of(self, p: Prediction, width: float) -> list[Row]:
+    def _rows_of(self, p: Prediction) -> list[Row]:
         """Return a prediction: its name and how it stands, and below that its numbers."""
         theme = self.painter.theme
         said, color = self._verdict(p, theme)
-        name = [Word(DOT, color, 12), Word(p.name, theme.ink, 13)]
-        head = self.line(NAME, name, [Word(said, color, 12, bold=True)])
+        name = [Word(DOT, color), Word(p.name, theme.ink)]
+        head = self.line(name, [Word(said, color, bold=True)])
         if p.reason:
-            return [head, self.line(LINE, [Word(p.reason, theme.muted, 12)]), self.line(GAP)]
-        room = (ENDS[0] * width - 4) * self.painter.ui
-        measured = p.measured if math.isfinite(p.measured) else None
-        shown = [self._fitted(value, p.tolerance, room) for value in (p.predicted, measured)]
-        numbers = (SIGNS[p.bound] + shown[0], shown[1], cells(p)[-1])
-        inks = (theme.text, color if self.reading.finished else theme.text, theme.text)
-        cells_of = zip(numbers, inks, strict=True)
-        ends = self._columns(Word(*cell, NUMBER, k == 1) for k, cell in enumerate(cells_of))
-        if p.unit:
-            ends[-1][1].append(Word(p.unit, theme.muted, 12))
-        return [head, self.line(LINE, ends=ends), self.line(GAP)]
-
-    def _fitted(self, value: float | None, tolerance: float, room: float) -> str:
-        """Return a number with the digits that its tolerance needs, or as many as there is room."""
-        if value is None:
-            return "-"
-        texts = [number(value, tolerance), *(f"{value:.{digits}g}" for digits in (8, 6, 4))]
-        size = NUMBER * self.painter.ui
-        fits = (text for text in texts if self.painter.fonts.width(text, size, bold=True) <= room)
-        return next(fits, texts[-1])
+            return [head, self.line([Word(p.reason, theme.muted)]), self.gap(GAP)]
+        predicted, measured, tolerance = cells(p)[-3:]
+        measured = measured if math.isfinite(p.measured) else "-"
+        ink = color if self.reading.finished else theme.text
+        words = [
+            Word(predicted, theme.text), Word(measured, ink, bold=True),
+            Word(f"{tolerance} {p.unit}".strip(), theme.text),
+        ]  # fmt: skip
+        return [head, self.table(words, ENDS), self.gap(GAP)]
 
     def _verdict(self, prediction: Prediction, theme: Theme) -> tuple[str, str]:
         """Return how a prediction stands, in words, and their colour."""

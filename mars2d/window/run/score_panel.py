@@ -14,9 +14,9 @@ from mars2d.window.widgets.help import draw_cap
 from mars2d.window.widgets.panel import DOT, Panel
 from mars2d.window.widgets.rows import Row, Word
 
-TIME, ROW, LINE, KEYS, WORDS, GAP = 34.0, 24.0, 18.0, 36.0, 32.0, 8.0
-"""The heights of the time left, a row, a line of text, keys, who has won, and gaps, points."""
-SMALL, SIZE, LARGE = 13.0, 15.0, 22.0
+TIME, ROW, KEYS, WORDS, GAP = 34.0, 24.0, 36.0, 32.0, 8.0
+"""The heights of the time left, a row, keys, who has won, and gaps, points."""
+SIZE, LARGE = 15.0, 22.0
 """The heights of letters, points."""
 MAX_LINES = 3
 """The most lines of why a game has ended."""
@@ -46,11 +46,11 @@ class ScorePanel(Panel):
         play, scenario, theme = self.play, frame.scenario, self.painter.theme
         left = max(scenario.stop_time - frame.time, 0.0)
         at_end = Word(f"{left:.1f} s", theme.ink, 24, bold=True)
-        yield self.line(TIME, [Word("time left", theme.muted, SMALL)], [at_end])
+        yield self.line([Word("time left", theme.muted)], [at_end], TIME)
         distance = play.distance(frame)
         if distance is not None:
             at_end = Word(f"{distance:.2f} m", theme.ink, SIZE, bold=True)
-            yield self.line(ROW, [Word("distance", theme.muted, SMALL)], [at_end])
+            yield self.line([Word("distance", theme.muted)], [at_end], ROW)
         yield Row(GAP, self._rule)
         score = play.score()
         for role, team in roles_of(scenario).items():
@@ -76,22 +76,22 @@ class ScorePanel(Panel):
         theme, contest = self.painter.theme, self.play.contest
         role, by, points = about
         dot = Word(DOT, theme.shade(frame.scenario.colors[robot]), SIZE)
-        words = dot, Word(role, theme.ink, SIZE, bold=True), Word(by, theme.muted, SMALL)
-        yield self.line(ROW, words, [Word(points, theme.ink, SIZE, bold=True)])
+        words = dot, Word(role, theme.ink, SIZE, bold=True), Word(by, theme.muted)
+        yield self.line(words, [Word(points, theme.ink, SIZE, bold=True)], ROW)
         for seat in seats:
             yield self._keys(seat.keys)
             if contest is not None and seat.role:
                 yield from self._text(contest.aim(seat.role, frame.scenario), width, 2)
             elif contest is None:
                 yield from self._text(self.play.task, width, MAX_LINES)
-            yield self.line(GAP / 2)
+            yield self.gap(GAP / 2)
 
     def _ending(self, frame: Frame, width: float) -> Iterator[Row]:
         """Yield how a game has ended, why, and the keys to go on with; nothing before."""
         result, theme = self.play.result, self.painter.theme
         if result is None:
             return
-        yield self.line(WORDS, [Word(result.words, theme.running.ink, LARGE, bold=True)])
+        yield self.line([Word(result.words, theme.running.ink, LARGE, bold=True)], high=WORDS)
         yield from self._text(frame.over_message, width, MAX_LINES)
         yield self._keys(("R",), "play again")
         yield self._keys((str(NEXT),), "next start")
@@ -102,7 +102,7 @@ class ScorePanel(Panel):
 
     def _text(self, text: str, width: float, most: int) -> Iterator[Row]:
         """Yield lines of text."""
-        yield from self.wrapped(LINE, Word(text, self.painter.theme.text, SMALL), width, most)
+        yield from self.wrapped(Word(text, self.painter.theme.text), width, most)
 
     # -- drawing ------------------------------------------------------------------------------
 

@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
+from math import floor
 from typing import Any
 
 import pygame
 
 from mars2d.output.raster.painter import Painter
-from mars2d.window.widgets.rows import BAR, Row, Scroll, Word, height_of, write_line
+from mars2d.window.widgets.rows import BAR, Row, Scroll, Word, height_of, width_of, write_line
 
 Frame = Any
 """What panels show: the dock passes it on."""
 
 DOT = "\N{BLACK CIRCLE}"
 """A word that stands for a robot, or for how something stands, by its colour."""
+LINE = 18.0
+"""The height of a row of words, points."""
 NOTCH = 38.0
 """How far a notch of the wheel scrolls, points."""
 
@@ -123,24 +127,41 @@ class Panel:
     # -- rows of words --------------------------------------------------------------------------
 
     def line(
-        self,
-        height: float,
-        left: Sequence[Word] = (),
-        right: Sequence[Word] = (),
-        ends: Sequence[tuple[float, Sequence[Word]]] = (),
+        self, left: Sequence[Word] = (), right: Sequence[Word] = (), high: float = LINE
     ) -> Row:
-        """Return a row of words from both ends; ends: of columns, in parts of the width."""
+        """Return a row of words from both ends."""
+        return Row(high, lambda surface, rect: write_line(surface, rect, self.painter, left, right))
+
+    def table(self, words: Sequence[Word], ends: Sequence[float], left: Sequence[Word] = ()) -> Row:
+        """Return a row of columns, in letters as large as all fit.
+
+        ends: of columns, in parts of the width; each has as many of the words. left: labels.
+        """
+        each, ui = len(words) // len(ends), self.painter.ui
+        cells = [words[k : k + each] for k in range(0, len(words), each)]
+        wide = [width_of(self.painter, cell) for cell in ([*left, *cells[0]], *cells[1:])]
 
         def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
-            write_line(surface, rect, self.painter, left, right)
-            for end, words in ends:
-                column = pygame.Rect(rect.topleft, (round(end * rect.width), rect.height))
-                write_line(surface, column, self.painter, right=words)
+            edges = [round(end * rect.width) for end in (0.0, *ends)]
+            share = min((b - a) / w for (a, b), w in zip(pairwise(edges), wide, strict=True))
 
-        return Row(height, draw)
+            def sized(word: Word) -> Word:
+                size = word.size if share >= 1 else floor(share * word.size * ui) / ui
+                return word._replace(size=size)
 
-    def wrapped(self, height: float, word: Word, width: float, most: int = 100) -> Iterator[Row]:
+            for (a, b), cell in zip(pairwise(edges), cells, strict=True):
+                place = pygame.Rect(rect.left + a, rect.top, b - a, rect.height)
+                write_line(surface, place, self.painter, right=[sized(word) for word in cell])
+            write_line(surface, rect, self.painter, [sized(word) for word in left])
+
+        return Row(LINE, draw)
+
+    def gap(self, high: float) -> Row:
+        """Return an empty row."""
+        return self.line(high=high)
+
+    def wrapped(self, word: Word, width: float, most: int = 100) -> Iterator[Row]:
         """Yield the lines of a text; most: as many as they are at most."""
         ui, (text, color, size, bold) = self.painter.ui, word
         for each in self.painter.fonts.wrap(text, size * ui, width * ui, most) if text else ():
-            yield self.line(height, [Word(each, color, size, bold)])
+            yield self.line([Word(each, color, size, bold)])

@@ -115,6 +115,12 @@ def write_line(
     return free
 
 
+def width_of(painter: Painter, words: Sequence[Word]) -> float:
+    """Return the width of words on a line with the gaps behind them, pixels."""
+    width, ui = painter.fonts.width, painter.ui
+    return sum(width(word.text, word.size * ui, bold=word.bold) + GAP * ui for word in words)
+
+
 def height_of(rows: Sequence[Row]) -> float:
     """Return the height of rows together, points."""
     return sum(row.height for row in rows)
