@@ -10,7 +10,7 @@ from mars2d.record.frame import Frame
 from mars2d.record.impacts import card
 from mars2d.window.screen.player import Player
 from mars2d.window.widgets.panel import LINE, Panel
-from mars2d.window.widgets.rows import Row, Word, minus
+from mars2d.window.widgets.rows import Row, Word, height_of, minus
 
 ENDS = (0.5, 0.71, 1.0)
 """Where the numbers of a, of b and of both end, in parts of the width."""
@@ -39,6 +39,11 @@ class Impact(Panel):
         if not lines:
             return [*self.wrapped(Word(SILENT, self.painter.theme.muted), width)]
         return [self._line(*line) for line in lines]
+
+    def heights(self, frame: Frame, width: float) -> tuple[float, float]:
+        """Return the least and the wanted height; without a card it needs little."""
+        wanted = height_of(self.rows(frame, width))
+        return min(self.least, wanted), wanted
 
     def _line(self, label: str, *numbers: str) -> Row:
         """Return a line of a card; that without a label has the names."""

@@ -24,11 +24,8 @@ class Lesson(Panel):
         """Read a file; one without a docstring of several parts has no lesson."""
         super().__init__(painter)
         self.parts = lesson_of(path)
-
-    @property
-    def offered(self) -> bool:
-        """Whether there is a lesson."""
-        return len(self.parts) > 1
+        if len(self.parts) < 2:
+            self.lacks = "this file has no lesson: a docstring with Question: and the like"
 
     def rows(self, frame: Frame, width: float) -> Sequence[Row]:  # noqa: ARG002
         """Return the lines, each part under its heading."""

@@ -18,6 +18,7 @@ from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.parameters import PREFIX, Parameter
 from mars2d.window.screen.picking import Selection
 from mars2d.window.screen.player import Player
+from mars2d.window.screen.source import RECORDING
 from mars2d.window.widgets.buttons import draw_icon
 from mars2d.window.widgets.panel import LINE, Panel
 from mars2d.window.widgets.rows import Row, Word, write_line
@@ -78,6 +79,7 @@ class ParameterPanel(Panel):
         super().__init__(painter)
         self._player, self._selection = player, selection
         self._set_to, self._clock = set_to, clock
+        self.lacks = "" if isinstance(player.source, Timeline) else RECORDING
         self._known: tuple[Experiment | None, int | None] = None, None
         self._lines: list[Line] = []
         self._sliders: dict[str, Slider] = {}
@@ -89,11 +91,6 @@ class ParameterPanel(Panel):
         self._value = 0.0  # of what is held
         self._anew = ""  # why it needs a new start
         self._next = 0.0  # when it may be set
-
-    @property
-    def offered(self) -> bool:
-        """Whether the run can be changed."""
-        return isinstance(self._player.source, Timeline)
 
     # -- what there is ------------------------------------------------------------------------
 

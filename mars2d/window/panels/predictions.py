@@ -66,9 +66,10 @@ class Predictions(Panel):
         self._next = -math.inf
 
     @property
-    def offered(self) -> bool:
-        """Whether the experiment has checks."""
-        return self._timeline is not None and self._timeline.experiment.source.checks is not None
+    def lacks(self) -> str:  # type: ignore[override]
+        """Why there is nothing to show: without checks, which may come when the file is saved."""
+        checks = self._timeline is not None and self._timeline.experiment.source.checks is not None
+        return "" if checks else "this file has no checks, which compare a run with theory"
 
     def look(self, *, playing: bool) -> bool:
         """Read the run again if it has gone on; return whether there is something new to see."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from itertools import pairwise
+from math import degrees
 from typing import Any
 
 import numpy as np
@@ -29,8 +30,8 @@ Row = tuple[str, list[tuple[str, str]]]
 
 def kind_of(frame: Frame, body: int) -> str:
     """Return the kind of a body: its drive, or the kind of prop."""
-    thing = frame.scenario.bodies[body]
-    return snake_case(type(getattr(thing, "drive", thing)).__name__).replace("_", " ")
+    things = *(robot.drive for robot in frame.scenario.robots), *frame.scenario.props
+    return snake_case(type(things[body]).__name__).replace("_", " ")
 
 
 def state_of(frame: Frame, body: int) -> list[Row]:
@@ -120,7 +121,7 @@ def _digits(value: float, unit: str) -> str:
 
 
 def _degrees(angle: float) -> str:
-    return minus(f"{round(np.degrees(wrap(angle))):d}°")
+    return minus(f"{round(degrees(wrap(angle))):d}°")
 
 
 def in_both_units(angle: float) -> str:

@@ -24,7 +24,7 @@ from mars2d.window.screen.picking import Selection
 from mars2d.window.screen.player import Player
 from mars2d.window.screen.saving import Saver
 from mars2d.window.screen.viewpoint import wheel_notches
-from mars2d.window.widgets.dock import Panel
+from mars2d.window.widgets.panel import Panel
 from mars2d.window.widgets.plot import (
     Limits,
     as_number,

@@ -10,12 +10,12 @@ from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
 from mars2d.scenario.roles import roles_of
 from mars2d.window.run.play import NEXT, Play, Seat
-from mars2d.window.widgets.help import draw_cap
+from mars2d.window.widgets.help import row_of_keys
 from mars2d.window.widgets.panel import DOT, Panel
 from mars2d.window.widgets.rows import Row, Word
 
-TIME, ROW, KEYS, WORDS, GAP = 34.0, 24.0, 36.0, 32.0, 8.0
-"""The heights of the time left, a row, keys, who has won, and gaps, points."""
+TIME, ROW, WORDS, GAP = 34.0, 24.0, 32.0, 8.0
+"""The heights of the time left, a row, who has won, and gaps, points."""
 SIZE, LARGE = 15.0, 22.0
 """The heights of letters, points."""
 MAX_LINES = 3
@@ -79,7 +79,7 @@ class ScorePanel(Panel):
         words = dot, Word(role, theme.ink, SIZE, bold=True), Word(by, theme.muted)
         yield self.line(words, [Word(points, theme.ink, SIZE, bold=True)], ROW)
         for seat in seats:
-            yield self._keys(seat.keys)
+            yield row_of_keys(self.painter, seat.keys, [""])
             if contest is not None and seat.role:
                 yield from self._text(contest.aim(seat.role, frame.scenario), width, 2)
             elif contest is None:
@@ -93,31 +93,16 @@ class ScorePanel(Panel):
             return
         yield self.line([Word(result.words, theme.running.ink, LARGE, bold=True)], high=WORDS)
         yield from self._text(frame.over_message, width, MAX_LINES)
-        yield self._keys(("R",), "play again")
-        yield self._keys((str(NEXT),), "next start")
+        yield row_of_keys(self.painter, ["R"], ["play again"])
+        yield row_of_keys(self.painter, [str(NEXT)], ["next start"])
         numbers = tuple(str(choice.number) for choice in self.play.choices)
         if numbers:
-            yield self._keys(numbers, "other roles")
+            yield row_of_keys(self.painter, numbers, ["other roles"])
         yield Row(GAP, self._rule)
 
     def _text(self, text: str, width: float, most: int) -> Iterator[Row]:
         """Yield lines of text."""
         yield from self.wrapped(Word(text, self.painter.theme.text), width, most)
-
-    # -- drawing ------------------------------------------------------------------------------
-
-    def _keys(self, keys: tuple[str, ...], does: str = "") -> Row:
-        """Return the caps of keys, and what they do."""
-        painter = self.painter
-
-        def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
-            x = rect.left
-            for key in keys:
-                x = draw_cap(surface, painter, key, x, rect.centery, painter.ui)
-            place = x + round(4 * painter.ui), rect.centery
-            painter.write(surface, does, SIZE * painter.ui, painter.theme.text, midleft=place)
-
-        return Row(KEYS, draw)
 
     def _rule(self, surface: pygame.Surface, rect: pygame.Rect) -> None:
         surface.fill(self.painter.theme.edge, (rect.left, rect.centery, rect.width, 1))

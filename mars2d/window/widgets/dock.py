@@ -155,8 +155,9 @@ class Dock:
         if self.plates.keys() != set(names):  # what covers the picture, before it is drawn
             self.plates = self._plates(frame)
         if anew:
-            moves = self._place is not None and (first or len(framed) > 1)
-            self._framed, self._room = framed, self._place.room if moves else self._plot
+            moves = first or len(framed) > 1
+            room = self._place.room if self._place is not None and moves else self._plot
+            self._framed, self._room = framed, room
         return self._room
 
     def _best(self, layout: Layout, frame: Frame, bounds: Bounds, *, anew: bool) -> Place | None:

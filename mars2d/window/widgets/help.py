@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from functools import partial
 
 import pygame
 
@@ -93,39 +92,40 @@ class Help:
 
 def _rows(painter: Painter, heading: str, keys: Iterable[Action], width: int) -> Iterator[Row]:
     """Yield the heading of a group, and its keys."""
-    ui, fonts = painter.ui, painter.fonts
-    yield Row(HEADING, partial(_draw_heading, painter, heading), heading)
+    ui, fonts, theme = painter.ui, painter.fonts, painter.theme
+
+    def draw(surface: pygame.Surface, place: pygame.Rect) -> None:
+        at = place.left, place.bottom - 16 * ui
+        painter.write(surface, heading, SIZE * ui, theme.running.ink, bold=True, midleft=at)
+        surface.fill(theme.edge, (place.left, place.bottom - round(3 * ui), place.width, 1))
+
+    yield Row(HEADING, draw, heading)
     for key in keys:
         caps = sum(cap_width(fonts, name, ui) for name in key.labels) + 10 * ui
         left = max(CAPS * ui, caps)
-        lines = fonts.wrap(key.help, SIZE * ui, width - left, 4)
-        yield Row(ROW + LINE * (len(lines) - 1), partial(_draw_keys, painter, key, left, lines))
+        yield row_of_keys(
+            painter, key.labels, fonts.wrap(key.help, SIZE * ui, width - left, 4), left
+        )
 
 
-def _draw_heading(
-    painter: Painter, heading: str, surface: pygame.Surface, place: pygame.Rect
-) -> None:
-    ui, theme = painter.ui, painter.theme
-    at = place.left, place.bottom - 16 * ui
-    painter.write(surface, heading, SIZE * ui, theme.running.ink, bold=True, midleft=at)
-    surface.fill(theme.edge, (place.left, place.bottom - round(3 * ui), place.width, 1))
+def row_of_keys(
+    painter: Painter, keys: Sequence[str], lines: Sequence[str], left: float = 0.0
+) -> Row:
+    """Return a row of the caps of keys, and beside them, or further right, what they do.
 
+    left: where the lines begin at least, pixels.
+    """
+    ui = painter.ui
 
-def _draw_keys(
-    painter: Painter,
-    key: Action,
-    left: float,
-    lines: Sequence[str],
-    surface: pygame.Surface,
-    place: pygame.Rect,
-) -> None:
-    ui, x = painter.ui, place.left
-    middle = place.top + round(ROW * ui / 2)
-    for name in key.labels:
-        x = draw_cap(surface, painter, name, x, middle, ui)
-    for k, line in enumerate(lines):
-        at = place.left + left, middle + round(k * LINE * ui)
-        painter.write(surface, line, SIZE * ui, painter.theme.text, midleft=at)
+    def draw(surface: pygame.Surface, place: pygame.Rect) -> None:
+        x, middle = place.left, place.top + round(ROW * ui / 2)
+        for name in keys:
+            x = draw_cap(surface, painter, name, x, middle, ui)
+        for k, line in enumerate(lines):
+            at = max(place.left + left, x + 4 * ui), middle + round(k * LINE * ui)
+            painter.write(surface, line, SIZE * ui, painter.theme.text, midleft=at)
+
+    return Row(ROW + LINE * (len(lines) - 1), draw)
 
 
 def _filled(rows: Iterable[Row], limit: float) -> Iterator[list[Row]]:

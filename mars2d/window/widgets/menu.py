@@ -10,7 +10,7 @@ import pygame
 from mars2d.output.raster.painter import Painter
 from mars2d.window.widgets.actions import CONTROL, MODIFIERS, label_of
 from mars2d.window.widgets.help import draw_veil
-from mars2d.window.widgets.rows import Scroll
+from mars2d.window.widgets.rows import Scroll, Word, write_line
 from mars2d.window.widgets.text_field import TextField
 
 ROW, MORE, PAD, BOX = 30.0, 18.0, 8.0, 15.0
@@ -318,20 +318,19 @@ class Menu:
         if head or entry.tone:
             inks = {"note": theme.muted, "warning": theme.waiting.ink}
             title = inks.get(entry.tone, value)
-        room = right - left - before
-        most = max(0.6 * room, room - pad - fonts.width(entry.title, size, bold=head))
-        words = fonts.shorten(f"{entry.value}{entry.key}", size, most)
-        end = painter.write(surface, words, size, value, midright=(right, middle)).left
+        line = pygame.Rect(left + before, place.top, right - left - before, round(ROW * ui))
+        most = line.width - pad - fonts.width(entry.title, size, bold=head)
+        words = fonts.shorten(f"{entry.value}{entry.key}", size, max(0.6 * line.width, most))
         for k, color in enumerate(entry.colors):
             dot = box.move(round(k * (BOX + 4) * ui), 0)
             painter.panel(surface, dot, theme.shade(color), side / 2)
-        text = fonts.shorten(entry.title, size, end - left - before - pad * bool(words), bold=head)
-        at = painter.write(surface, text, size, title, bold=head, midleft=(left + before, middle))
+        points = size / painter.ui
+        values = [Word(words, value, points)] if words else []
+        free = write_line(surface, line, painter, [Word(entry.title, title, points, head)], values)
         if entry.field is not None:
-            typed = pygame.Rect(at.right + pad, place.top, 0, place.height)
-            typed.width = place.right - typed.left
-            painter.panel(surface, typed, theme.paper, 5 * ui, theme.selected)
-            entry.field.draw(surface, typed.inflate(-2 * pad, 0), painter, size)
+            free.width += pad
+            painter.panel(surface, free, theme.paper, 5 * ui, theme.selected)
+            entry.field.draw(surface, free.inflate(-2 * pad, 0), painter, size)
         if entry.more:
             more = fonts.shorten(entry.more, SMALL * ui, place.right - pad - left - before)
             below = (left + before, middle + MORE * ui)

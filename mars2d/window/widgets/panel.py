@@ -36,7 +36,8 @@ class Panel:
     panel draws a head of its own, and leaves the corner at the upper right to the close button.
     frames: whether the arena moves aside when it opens or changes its size. wanted: whether it is
     to be open, or with how many plots, which need room. remembered: whether the next window opens
-    it again. least: the least height of rows and foot, points. places: where named rows were drawn.
+    it again. least: the least height of rows and foot, points. lacks: why there is nothing to show,
+    or "". places: where named rows were drawn.
     """
 
     name = ""
@@ -46,6 +47,7 @@ class Panel:
     remembered = True
     wanted: int = False
     least = 72.0
+    lacks = ""
 
     def __init__(self, painter: Painter) -> None:
         """Start closed, at the top."""
@@ -53,14 +55,9 @@ class Panel:
         self.places: dict[str, pygame.Rect] = {}
 
     @property
-    def offered(self) -> bool:
-        """Whether there is anything to show."""
-        return True
-
-    @property
     def is_open(self) -> bool:
         """Whether it is wanted, and there is something to show."""
-        return bool(self.wanted and self.offered)
+        return bool(self.wanted) and not self.lacks
 
     def open(self) -> None:
         """Open it."""
