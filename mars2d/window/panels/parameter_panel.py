@@ -199,10 +199,15 @@ class ParameterPanel(Panel):
         super().handle(event)
         if event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
             return self._press(event.pos)
-        if event.type == pygame.MOUSEMOTION and self._held is not None:
-            self._drag(event.pos[0])
-        elif event.type == pygame.MOUSEBUTTONUP and self._held is not None:
-            self._drop()
+        held = self.parameters().get(self._held or "")
+        if held is None:  # or the file was saved, and has it no more
+            self._held = None
+        elif event.type == pygame.MOUSEMOTION:
+            self._drag(held, event.pos[0])
+        elif event.type == pygame.MOUSEBUTTONUP:
+            self._held = None
+            if held.value != self._value or self._anew:
+                self._set(held.name, self._value)
         return False
 
     def _press(self, pixel: Pixel) -> bool:
@@ -212,41 +217,25 @@ class ParameterPanel(Panel):
         self.focus, self.said = name, ("", "info")
         if name is None:
             return False
+        parameter = self.parameters()[name]
         if name in self.resets and self.resets[name].collidepoint(pixel):
-            self._set(name, self.parameters()[name].default)
+            self._set(name, parameter.default)
         elif self._sliders[name].hit(pixel):
             self._held, self._anew, self._next = name, "", self._clock()
-            self._drag(pixel[0])
+            self._drag(parameter, pixel[0])
         return self._held is not None
 
-    def _drag(self, x: float) -> None:
+    def _drag(self, parameter: Parameter, x: float) -> None:
         """Move the handle that is held to a pixel from the left."""
-        assert self._held is not None
-        parameter = self.parameters().get(self._held)
-        if parameter is None:  # the file was saved, and has it no more
-            self._held = None
-        else:
-            self._value = parameter.nearest(self._sliders[self._held].value_at(x))
+        self._value = parameter.nearest(self._sliders[parameter.name].value_at(x))
 
     def tick(self) -> None:
         """While time passes, set the dragged value as often as that is quick; call it often."""
-        start = self._clock()
-        if self._waits() and not self._anew and self._player.playing and start >= self._next:
-            self._set(self._held or "", self._value, restart=False)
-            taken = self._clock() - start
-            self._next = start + max(EVERY, taken / SHARE)
-
-    def _drop(self) -> None:
-        """Let go of the handle, and set its value."""
-        waits, name = self._waits(), self._held
-        self._held = None
-        if name is not None and (waits or self._anew):
-            self._set(name, self._value)
-
-    def _waits(self) -> bool:
-        """Return whether something is held that has another value yet."""
-        held = self.parameters().get(self._held or "")
-        return held is not None and held.value != self._value
+        held, start = self.parameters().get(self._held or ""), self._clock()
+        waits = held is not None and held.value != self._value and not self._anew
+        if held is not None and waits and self._player.playing and start >= self._next:
+            self._set(held.name, self._value, restart=False)
+            self._next = start + max(EVERY, (self._clock() - start) / SHARE)
 
     def _set(self, name: str, value: float, *, restart: bool = True) -> None:
         """Set a parameter, and report the effect."""
