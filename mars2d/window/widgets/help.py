@@ -12,7 +12,9 @@ from mars2d.output.raster.painter import Painter
 from mars2d.window.widgets.actions import Action
 from mars2d.window.widgets.rows import Row, height_of
 
-SIZE, ROW, LINE = 14.0, 30.0, 18.0
+SHARES = (1.0, 0.85, 0.7)
+"""The scales that are tried until all is on one page, as shares of the window's."""
+SIZE, ROW, LINE = 15.0, 31.0, 19.0
 """The heights of letters, of a row, and of each further line of a row, points."""
 HEADING = 42.0
 """The height of a group's heading, points."""
@@ -62,13 +64,18 @@ class Help:
         """
         if self.page is None:
             return
-        area, ui, theme = surface.get_rect(), painter.ui, painter.theme
+        area, largest, theme = surface.get_rect(), painter.ui, painter.theme
         area.height, area.top = area.height - layout.header.bottom, layout.header.bottom
-        wide, high, (least, most) = area.width / ui - 3 * PAD, area.height / ui - 16, WORDS
-        count = max(1, min(MOST, int((wide + BETWEEN) / (CAPS + least + BETWEEN))))
-        width = round(min(CAPS + most, (wide + BETWEEN) / count - BETWEEN) * ui)
-        rows = [row for named in groups for row in _rows(painter, *named, width)]
-        columns = [*_filled(rows, high - TOP - PAD)]
+        least, most = WORDS
+        for share in SHARES:
+            ui = painter.ui = share * largest
+            wide, high = area.width / ui - 2 * PAD, area.height / ui - 16
+            count = max(1, min(MOST, int((wide + BETWEEN) / (CAPS + least + BETWEEN))))
+            width = round(min(CAPS + most, (wide + BETWEEN) / count - BETWEEN) * ui)
+            rows = [row for named in groups for row in _rows(painter, *named, width)]
+            columns = [*_filled(rows, high - TOP - PAD)]
+            if len(columns) <= count:
+                break
         self.pages = -(-len(columns) // count)
         self.page = min(self.page, self.pages - 1)
         draw_veil(surface, painter, area)
@@ -88,6 +95,7 @@ class Help:
                 place.height = round(row.height * ui)
                 row.draw(surface, place)
                 place.top = place.bottom
+        painter.ui = largest
 
 
 def _rows(painter: Painter, heading: str, keys: Iterable[Action], width: int) -> Iterator[Row]:
