@@ -54,8 +54,8 @@ AUTOMATIC = "automatic"
 NO_LAW = "none: it stands still"
 GIVEN = 0.5
 """The value of a sensor's number that has no default."""
-LONG = 20
-"""The number of letters from which on a value stands below its title."""
+MOST = 19
+"""The longest value beside its title, letters; others stand below it."""
 MAX_IDLE = 6
 """The most robots that are listed because they stand still."""
 
@@ -270,9 +270,9 @@ class Properties:
         rows = []
         for name, field in subject.plain.items():
             if name not in but:
-                words, ask = subject.in_words(field), partial(self._ask, subject, name)
-                place = "value" if len(words) < LONG else "more"
-                rows.append(Entry(_title(name).capitalize(), ask, **{place: words}))
+                ask, words = partial(self._ask, subject, name), subject.in_words(field)
+                beside, below = (words, "") if len(words) <= MOST else ("", words)
+                rows.append(Entry(_title(name).capitalize(), ask, value=beside, more=below))
         return rows
 
     # -- asking ---------------------------------------------------------------------------------
