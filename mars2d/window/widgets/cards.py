@@ -145,9 +145,9 @@ class Page:
         for title, place in self._headings:
             size, at = TITLE * painter.ui, self._seen(place).midleft
             painter.write(surface, title, size, painter.theme.ink, bold=True, midleft=at)
-        for k, (card, place) in enumerate(self.places):
+        for card, place in self.places:
             if self._seen(place).colliderect(self._area):
-                self._draw_card(surface, painter, card, self._seen(place), chosen=k == self.chosen)
+                self._draw_card(surface, painter, card, self._seen(place))
         self._scroll.draw_bar(surface, painter, self._area.inflate(-8 * painter.ui, 0))
         surface.set_clip(None)
 
@@ -155,16 +155,10 @@ class Page:
         return place.move(self._area.left, self._area.top - round(self._scroll.at))
 
     def _draw_card(
-        self,
-        surface: pygame.Surface,
-        painter: Painter,
-        card: Card,
-        place: pygame.Rect,
-        *,
-        chosen: bool,
+        self, surface: pygame.Surface, painter: Painter, card: Card, place: pygame.Rect
     ) -> None:
         ui, theme, fonts = painter.ui, painter.theme, painter.fonts
-        if chosen:
+        if card is self.card:
             edge = max(2, round(2.5 * ui))
             painter.panel(surface, place.inflate(2 * edge, 2 * edge), theme.selected, 10 * ui)
         painter.panel(surface, place, theme.plate, 8 * ui, theme.edge)

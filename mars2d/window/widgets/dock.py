@@ -303,18 +303,14 @@ class Dock:
             plate = plates.get(panel.name, pygame.Rect(0, 0, 0, 0)).move(away)
             if plate and not (free is not None and plate.colliderect(free)):
                 self.plates[panel.name] = plate
-                self._draw_panel(surface, frame, panel, plate, pointer)
+                self._draw_panel(surface, frame, panel, pointer)
 
     def _draw_panel(
-        self,
-        surface: pygame.Surface,
-        frame: Frame,
-        panel: Panel,
-        plate: pygame.Rect,
-        pointer: Pixel | None,
+        self, surface: pygame.Surface, frame: Frame, panel: Panel, pointer: Pixel | None
     ) -> None:
         """Draw a panel with its title and its close button."""
-        ui, theme, folded = self.painter.ui, self.painter.theme, panel.name in self._folded
+        ui, theme, plate = self.painter.ui, self.painter.theme, self.plates[panel.name]
+        folded = panel.name in self._folded
         pad, head = round(PAD * ui), round(HEAD * ui)
         self.painter.panel(surface, plate, theme.plate, 8 * ui, theme.edge)
         inside = plate.inflate(-2 * pad, -pad)

@@ -238,7 +238,7 @@ class Menu:
         titles = [
             max(width(each.title, SIZE * ui, bold=each.act is None),
                 width(each.more, SMALL * ui))
-            + self._before(each, entries, ui) + round(FIELD * ui * (each.field is not None))
+            + self._before(each, ui) + round(FIELD * ui * (each.field is not None))
             for each in entries
         ]  # fmt: skip
         ends = max(width(f"{each.value}{each.key}", SIZE * ui) for each in entries)
@@ -247,20 +247,22 @@ class Menu:
             sum(_height(each, ui) for each in entries) + 2 * pad,
         )
 
-    def _before(self, entry: Entry, entries: Sequence[Entry], ui: float) -> int:
+    def _before(self, entry: Entry, ui: float) -> int:
         """Return the room before a title, for a tick box or dots, or as it is indented, pixels."""
         if self._docked:
             return round((BOX * entry.level + (BOX + 5) * len(entry.colors)) * ui)
-        most = max(max(len(each.colors), each.on is not None) for each in entries)
+        most = max(max(len(each.colors), each.on is not None) for each in self._listed())
         return round(most * (BOX + 9) * ui) if entry.act is not None or entry.colors else 0
 
     def draw(self, surface: pygame.Surface, bounds: pygame.Rect, painter: Painter) -> None:
         """Draw it within bounds, if it is open; where there is no room for all, a part of it."""
         if self._entries is None:
             return
-        entries, theme = self._entries(), painter.theme
-        ui = min(SCALE * painter.ui, bounds.width / LEAST) if self._docked else painter.ui
-        self._arrange(entries, bounds, painter, ui)
+        theme, largest = painter.theme, painter.ui
+        if self._docked:
+            painter.ui = min(SCALE * largest, bounds.width / LEAST)
+        ui = painter.ui
+        self._arrange(self._entries(), bounds, painter)
         if self._asks:
             draw_veil(surface, painter, bounds)
         if self._docked:
@@ -272,15 +274,13 @@ class Menu:
             if entry.act is not None and k == self._chosen and (self.focused or self._pointed):
                 edge = theme.selected if self.focused else theme.key_edge
                 painter.panel(surface, place, theme.key, 5 * ui, edge)
-            before = self._before(entry, entries, ui)
-            self._draw_entry(surface, entry, place, painter, ui, before)
+            self._draw_entry(surface, painter, entry, place)
         self._scroll.draw_bar(surface, painter, self.plate.inflate(-4 * ui, -16 * ui))
+        painter.ui = largest
 
-    def _arrange(
-        self, entries: Sequence[Entry], bounds: pygame.Rect, painter: Painter, ui: float
-    ) -> None:
+    def _arrange(self, entries: Sequence[Entry], bounds: pygame.Rect, painter: Painter) -> None:
         """Place the plate and the entries that are seen, the chosen one among them if sought."""
-        pad, heights = round(PAD * ui), [_height(entry, ui) for entry in entries]
+        pad, heights = round(PAD * painter.ui), [_height(entry, painter.ui) for entry in entries]
         width, height = bounds.size if self._docked else self.size(painter)
         size = min(width, bounds.width), min(height, bounds.height)
         self.plate = pygame.Rect(self.corner, size).clamp(bounds)
@@ -294,16 +294,15 @@ class Menu:
         self._chosen = min(able, key=lambda k: abs(k - self._chosen), default=self._chosen)
 
     def _draw_entry(
-        self,
-        surface: pygame.Surface,
-        entry: Entry,
-        place: pygame.Rect,
-        painter: Painter,
-        ui: float,
-        before: int,
+        self, surface: pygame.Surface, painter: Painter, entry: Entry, place: pygame.Rect
     ) -> None:
-        fonts, theme, size = painter.fonts, painter.theme, SIZE * ui
-        pad, side = round(PAD * ui), round(BOX * ui)
+        fonts, theme, ui = painter.fonts, painter.theme, painter.ui
+        pad, side, before, size = (
+            round(PAD * ui),
+            round(BOX * ui),
+            self._before(entry, ui),
+            SIZE * ui,
+        )
         left, right, middle = place.left + pad, place.right - pad, place.top + round(ROW / 2 * ui)
         box = pygame.Rect(left, middle - side // 2, side, side)
         if entry.on is not None:
@@ -324,9 +323,8 @@ class Menu:
         for k, color in enumerate(entry.colors):
             dot = box.move(round(k * (BOX + 4) * ui), 0)
             painter.panel(surface, dot, theme.shade(color), side / 2)
-        points = size / painter.ui
-        values = [Word(words, value, points)] if words else []
-        free = write_line(surface, line, painter, [Word(entry.title, title, points, head)], values)
+        values = [Word(words, value, SIZE)] if words else []
+        free = write_line(surface, line, painter, [Word(entry.title, title, SIZE, head)], values)
         if entry.field is not None:
             free.width += pad
             painter.panel(surface, free, theme.paper, 5 * ui, theme.selected)

@@ -6,7 +6,6 @@ import pygame
 
 from mars2d.output.raster.painter import Painter
 from mars2d.window.widgets.actions import CONTROL
-from mars2d.window.widgets.clipboard import copied, pasted
 
 
 class TextField:
@@ -168,3 +167,22 @@ class TextField:
         surface.set_clip(before)
         if pygame.display.get_init():  # an input method puts its list of words there
             pygame.key.set_text_input_rect(band.move(widths[caret] - widths[start], 0))
+
+
+def copied(text: str) -> bool:
+    """Copy text to the clipboard; return whether that worked."""
+    if not pygame.display.get_init() or pygame.display.get_surface() is None:
+        return False
+    try:
+        pygame.scrap.put_text(text)
+    except pygame.error:
+        return False
+    return pasted() == text
+
+
+def pasted() -> str:
+    """Return the text on the clipboard, "" if there is none or it can't be reached."""
+    try:
+        return pygame.scrap.get_text()
+    except pygame.error:
+        return ""
