@@ -3,7 +3,6 @@
 from math import inf
 
 import numpy as np
-import pygame
 import pytest
 
 from mars2d import Robot, Scenario
@@ -146,13 +145,6 @@ def test_each_speed_is_found_where_it_is_shown(size, text):
         assert slid.slider.speed_at(slid.slider.x_of(slid.slider.value_of(speed))) == speed
     assert slid.slider.speed_at(0) == 0.1
     assert slid.slider.speed_at(size[0]) == inf
-
-
-def test_the_first_drawing_shows_the_speed_where_the_second_does():
-    slid = Slid(5.0)
-    first = pygame.image.tobytes(slid.surface, "RGB")
-    slid.slider.draw(slid.surface, slid.layout.slider, painter(slid.layout, LIGHT), 5.0)
-    assert pygame.image.tobytes(slid.surface, "RGB") == first
 
 
 def test_the_speed_stands_beside_it():

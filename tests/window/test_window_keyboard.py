@@ -39,6 +39,7 @@ def test_panels_are_scrolled_by_keys(open_window, tmp_path):
     window = open_window(0, experiment=str(path))
     window.press("F4")
     lesson = window.shown.dock.lesson
+    window.shown.dock.scopes.switch("x", (0,))
     window.settle()
     assert lesson.scroll.cut
     window.press("shift+Next", "shift+Next")

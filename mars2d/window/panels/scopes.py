@@ -95,7 +95,8 @@ class Scopes(Panel):
         clock: Callable[[], float] = time.perf_counter,
     ) -> None:
         """Start with the plots that the experiment's file names; else closed."""
-        self.painter, self._player, self._clock = painter, player, clock
+        super().__init__(painter)
+        self._player, self._clock = player, clock
         self._selection = selection
         self.traces: list[Trace] = []
         self.span: float | None = None

@@ -10,9 +10,10 @@ import pygame
 
 from mars2d.core.scene import faded
 from mars2d.output.raster.painter import Painter
-from mars2d.output.raster.theme import Theme
 
 NoteKind = Literal["info", "warning", "error"]
+TONES = {"info": "running", "warning": "waiting", "error": "error"}
+"""The tones of the theme of notes, by their kinds."""
 
 STAYS, FADES = 5.0, 0.7
 """How long a note is seen, and how long it fades at the end, seconds."""
@@ -122,13 +123,8 @@ def _drawn(note: _Note, room: float, painter: Painter) -> pygame.Surface:
     painter.panel(image, plate, faded(theme.plate, 0.96), 8 * ui, theme.edge)
     bar = pygame.Rect(round(8 * ui), 0, max(2, round(4 * ui)), size[1] - round(16 * ui))
     bar.centery = plate.centery
-    painter.panel(image, bar, _color(note.kind, theme), bar.width / 2)
+    painter.panel(image, bar, getattr(theme, TONES[note.kind]).ink, bar.width / 2)
     for k, line in enumerate(lines):
         middle = (22 * ui, (9 + LINE * (k + 0.5)) * ui)
         painter.write(image, line, SIZE * ui, theme.ink, midleft=middle)
     return image
-
-
-def _color(kind: NoteKind, theme: Theme) -> str:
-    tones = {"info": theme.running, "warning": theme.waiting, "error": theme.error}
-    return tones[kind].ink
