@@ -44,8 +44,10 @@ Float = NDArray[np.float64]
 TITLE, LEFT, FOOT, GAP = 19.0, 52.0, 17.0, 7.0
 """The room for a plot's title, the numbers of its axis and those of the time axis, and the gap to
 the next plot, points."""
-LEAST, WANTED = 66.0, 124.0
+LEAST, WANTED = 56.0, 124.0
 """The least and the wanted height of a plot with its title, points."""
+HIGH = 86.0
+"""The height from which on a plot has a line for the names of its curves, points."""
 LINE = 16.0
 """The height of a line of text, points."""
 NAMED = 6
@@ -272,7 +274,7 @@ class Scopes(Panel):
         single: Sequence[int] = range(count)
         if count > CROWD:  # of many only those of the chosen body
             single = [k for k, body in enumerate(bodies) if body == self._selection.body]
-        below = 1 < count <= NAMED
+        below = 1 < count <= NAMED and place.height >= HIGH * ui
         top, left = place.top + round((TITLE + LINE * below) * ui), place.left + round(LEFT * ui)
         area = pygame.Rect(left, top, place.right - left - 2, place.bottom - round(GAP * ui) - top)
         shades = [self.painter.theme.shade(color) for color in colors]
