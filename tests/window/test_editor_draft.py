@@ -22,8 +22,7 @@ from mars2d.window.editor import Editor
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft, Item, Motion
-from mars2d.window.editor.handles import spanned
-from mars2d.window.editor.picking import item_at, items_within
+from mars2d.window.editor.grips import spanned
 from mars2d.window.editor.verdict import judge
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.viewpoint import Viewpoint
@@ -56,7 +55,7 @@ def renamed(draft, robot, name):
 
 def test_a_draft_keeps_the_order_and_the_fields_of_add_ons():
     scenario = furnished()
-    draft = Draft(scenario).added("outline", ((-1, -1), (0, -1), (0, 0)))
+    draft = Draft(scenario).added({Item("outline"): ((-1, -1), (0, -1), (0, 0))})
     changed = draft.scenario()
     assert [addon.key for addon in changed.addons] == [addon.key for addon in scenario.addons]
     chart = changed.addons[1]
@@ -69,18 +68,19 @@ def test_a_draft_keeps_the_order_and_the_fields_of_add_ons():
 def test_with_a_robot_go_its_route_and_its_joints():
     draft = Draft(furnished()).without([Item("robot", 1)])
     scenario = draft.scenario()
-    assert draft.listed("waypoint") == ((),)
+    assert draft.listed["waypoint"] == ((),)
     assert scenario.joints == ()
-    assert renamed(draft.added("robot", Robot()), 1, "second").base.joints == ()
+    assert renamed(draft.added({Item("robot"): Robot()}), 1, "second").base.joints == ()
     assert not any(isinstance(addon, Waypoints) for addon in scenario.addons)
     first = Draft(furnished()).without([Item("robot", 0)])
-    (route,) = first.listed("waypoint")
+    (route,) = first.listed["waypoint"]
     assert route == ((-3, 3), (-2, 3))  # robot 1 is robot 0 now, and so is its route
 
 
 def test_new_things_get_names_that_are_free():
     before = Draft(furnished())
-    draft = before.added("robot", Robot()).added("prop", Box()).added("beacon", Beacon((0, 0)))
+    models = {Item("robot"): Robot(), Item("prop"): Box(), Item("beacon"): Beacon((0, 0))}
+    draft = before.added(models)
     names = [draft.name(item) for item in draft.new_since(before)]
     assert names == ["box1", "robot1", "beacon0"]
 
@@ -118,7 +118,7 @@ def test_a_body_that_is_moved_starts_there_and_no_longer_at_random():
     robots = [Robot(name="red"), Robot(name="blue")]
     draft = Draft(Scenario(robots=robots, random_starts=[RandomStarts()]))
     red, blue = Item("robot", 0), Item("robot", 1)
-    x, y, _ = draft.pose(red)
+    x, y = draft.place(red)
     moved = draft.moved([red], Motion(by=(3 - x, 3 - y)))
     assert (draft.starts_at_random(red), moved.starts_at_random(red)) == (True, False)
     assert moved.scenario().started(seed=9).robots[0].pose[:2] == (3, 3)
@@ -159,7 +159,7 @@ def test_things_turn_about_a_point_and_come_back():
     quarter = Motion(pi / 2, (1.0, 2.0), (0.5, -0.5))
     turned = draft.moved(items, quarter)
     assert turned.robots[0].pose == pytest.approx((3.5, -2.5, pi / 2))
-    assert turned.listed("outline")[0][0] == pytest.approx((2.5, 1.5))
+    assert turned.listed["outline"][0][0] == pytest.approx((2.5, 1.5))
     back = turned.moved(items, Motion(by=(-0.5, 0.5))).moved(items, Motion(-pi / 2, (1.0, 2.0)))
     assert back.scenario() == draft.scenario()
 
@@ -191,7 +191,7 @@ def test_a_robot_that_can_not_stand_where_it_is(by, words, other):
 
 
 def test_a_waypoint_outside_the_workspace():
-    draft = Draft(furnished()).added("waypoint", (7.0, 0.0))
+    draft = Draft(furnished()).added({Item("waypoint"): (7.0, 0.0)})
     outside = {Item("waypoint", 0, 0)}
     assert fault(draft) == ("waypoint 0 of robot0 lies outside the workspace", outside)
 
@@ -199,7 +199,7 @@ def test_a_waypoint_outside_the_workspace():
 def test_outlines_that_are_none():
     words = r"obstacle 1: the polygon crosses or touches itself at \(0.5, 0.5\)"
     with pytest.raises(InputError, match=words):
-        Draft(furnished()).added("outline", BOW)
+        Draft(furnished()).added({Item("outline"): BOW})
 
 
 # -- history, sketch, targets, prompts -------------------------------------------------------------
@@ -222,8 +222,8 @@ def test_what_lies_uppermost_is_hit():
         (4.1, -4.0): Item("beacon", 0),
         (0.0, 4.0): None,
     }.items():
-        assert item_at(desk, point) == item
-    found = items_within(desk, (-4.0, 4.0), (-2.5, -1.0))
+        assert desk.item_at(point) == item
+    found = desk.items_within((-4.0, 4.0), (-2.5, -1.0))
     assert found == [Item("robot", 0), Item("robot", 1), Item("waypoint", 1, 0)]
 
 

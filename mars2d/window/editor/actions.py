@@ -7,57 +7,49 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from mars2d.bodies.props import Ball, Bar, Box, Gate, Puck
+from mars2d.window.editor import tools
 from mars2d.window.editor.desk import Desk
-from mars2d.window.editor.outlining import DrawPolygon, DrawSolid, DrawWall
-from mars2d.window.editor.placing import (
-    PlaceBeacon,
-    PlaceProp,
-    PlaceRectangle,
-    PlaceRobot,
-    PlaceWaypoint,
-)
-from mars2d.window.editor.select import Select
-from mars2d.window.editor.tool import Tool
+from mars2d.window.editor.tools import Chain, Place
 from mars2d.window.widgets.actions import Action
 
 if TYPE_CHECKING:
     from mars2d.window.editor.editor import Editor
 
-ICONS = {
-    "select": "M6 3l12 9-6 1-3 6Z",
-    "robot": "M4 12a8 8 0 1 0 16 0a8 8 0 1 0-16 0M12 12l5-5",
-    "box": "M5 5h14v14H5Z",
-    "ball": "M5 12a7 7 0 1 0 14 0a7 7 0 1 0-14 0M9.5 9.5h.1",
-    "bar": "M3 17 17 3l4 4L7 21Z",
-    "gate": "M2.5 12a2.5 2.5 0 1 0 5 0a2.5 2.5 0 1 0-5 0M7.5 12H21M18 5a9 9 0 0 1 0 14",
-    "puck": "M4 10a8 4 0 1 0 16 0a8 4 0 1 0-16 0M4 10v4a8 4 0 0 0 16 0v-4",
-    "solid": "M6 20 3 9l8-5 2 6 8 1-5 9Z",
-    "wall": "M3 19l5-11 7 4 6-8M8 8h.1M15 12h.1",
-    "polygon": "M4 16l9 4 8-9-8-2-4-6Z",
-    "rectangle": "M3 7h18v10H3ZM3 12l5-5M3 17 13 7M8 17 18 7M13 17l8-8",
-    "waypoint": "M4 19h.1M9 13h.1M14 14h.1M17 10h.1M16 5a3 3 0 1 0 6 0a3 3 0 1 0-6 0",
-    "beacon": "M9 12a3 3 0 1 0 6 0a3 3 0 1 0-6 0M12 3v3M12 18v3M3 12h3M18 12h3"
-    "M5.6 5.6l2.1 2.1M16.3 16.3l2.1 2.1M18.4 5.6l-2.1 2.1M7.7 16.3l-2.1 2.1",
-    "snap": "M4 8h16M4 16h16M8 4v16M16 4v16",
-}
-"""The paths of the icons, as those of `CONTROLS`."""
+TOOLS: tuple[tuple[str, str, str, Callable[[Desk], tools.Tool], str], ...] = (
+    ("select", "V", "select by a click or a drag; then a drag moves, the ring turns", tools.Select,
+     "M6 3l12 9-6 1-3 6Z"),
+    ("robot", "R", "robot like the selected one: click, or drag to turn it",
+     partial(Place, make=tools.robot), "M4 12a8 8 0 1 0 16 0a8 8 0 1 0-16 0M12 12l5-5"),
+    ("box", "B", "box: click, or drag for its size",
+     partial(Place, make=partial(tools.prop, Box)), "M5 5h14v14H5Z"),
+    ("bar", "L", "bar: click, or drag from end to end",
+     partial(Place, make=partial(tools.prop, Bar)), "M3 17 17 3l4 4L7 21Z"),
+    ("gate", "T", "gate, a bar on a hinge: click, or drag from the hinge",
+     partial(Place, make=partial(tools.prop, Gate)),
+     "M2.5 12a2.5 2.5 0 1 0 5 0a2.5 2.5 0 1 0-5 0M7.5 12H21M18 5a9 9 0 0 1 0 14"),
+    ("ball", "O", "ball: click, or drag for its size",
+     partial(Place, make=partial(tools.prop, Ball)),
+     "M5 12a7 7 0 1 0 14 0a7 7 0 1 0-14 0M9.5 9.5h.1"),
+    ("puck", "U", "puck: click, or drag for its size",
+     partial(Place, make=partial(tools.prop, Puck)),
+     "M4 10a8 4 0 1 0 16 0a8 4 0 1 0-16 0M4 10v4a8 4 0 0 0 16 0v-4"),
+    ("solid", "S", "prop of any shape: click its corners; the first or Enter closes, Backspace goes back",
+     partial(Chain, kind="prop", make=tools.solid), "M6 20 3 9l8-5 2 6 8 1-5 9Z"),
+    ("wall", "W", "wall: click its corners; Enter, Esc or a right click ends it",
+     partial(Chain, kind="wall"), "M3 19l5-11 7 4 6-8M8 8h.1M15 12h.1"),
+    ("polygon", "P", "obstacle: click its corners; the first or Enter closes, Backspace goes back",
+     partial(Chain, kind="outline"), "M4 16l9 4 8-9-8-2-4-6Z"),
+    ("rectangle", "K", "rectangular obstacle: click, or drag for its size",
+     partial(Place, make=tools.block), "M3 7h18v10H3ZM3 12l5-5M3 17 13 7M8 17 18 7M13 17l8-8"),
+    ("waypoint", "Y", "waypoints: click them one by one; a click on another robot begins its own",
+     partial(tools.PlaceWaypoint, make=tools.waypoint),
+     "M4 19h.1M9 13h.1M14 14h.1M17 10h.1M16 5a3 3 0 1 0 6 0a3 3 0 1 0-6 0"),
+    ("beacon", "N", "beacon: click", partial(Place, make=tools.beacon),
+     "M9 12a3 3 0 1 0 6 0a3 3 0 1 0-6 0M12 3v3m0 12v3M3 12h3m12 0h3"),
+)  # fmt: skip
+"""Of each tool: its name, its key, what to do, how it is made, and the path of its icon."""
 
-TOOLS: tuple[tuple[str, str, Callable[[Desk], Tool], str], ...] = (
-    ("select", "V", Select, "select and move"),
-    ("robot", "R", PlaceRobot, "robot; drag to turn it"),
-    ("box", "B", partial(PlaceProp, kind=Box), "box; drag for its size"),
-    ("bar", "L", partial(PlaceProp, kind=Bar), "bar; drag from end to end"),
-    ("gate", "T", partial(PlaceProp, kind=Gate), "gate, a bar on a hinge; drag from the hinge"),
-    ("ball", "O", partial(PlaceProp, kind=Ball), "ball; drag for its size"),
-    ("puck", "U", partial(PlaceProp, kind=Puck), "puck; drag for its size"),
-    ("solid", "S", DrawSolid, "prop of any shape; Enter or its first corner closes it"),
-    ("wall", "W", DrawWall, "wall, corner by corner; Enter or right click ends it"),
-    ("polygon", "P", DrawPolygon, "polygon; click the first corner, or Enter, to close it"),
-    ("rectangle", "K", PlaceRectangle, "rectangular obstacle; drag for its size"),
-    ("waypoint", "Y", PlaceWaypoint, "waypoints of a robot; click another robot for its own"),
-    ("beacon", "N", PlaceBeacon, "beacon"),
-)
-"""Of each tool: its name, its key, how it is made, and its line of help."""
+SNAP = "M4 8h16M4 16h16M8 4v16M16 4v16"
 
 
 def actions_of(editor: Editor) -> dict[str, tuple[Action, ...]]:
@@ -73,9 +65,10 @@ def actions_of(editor: Editor) -> dict[str, tuple[Action, ...]]:
         return Action(name, words, labels, act, also, **more)
 
     def button(
-        name: str, keys: str, words: str, act: Callable[[], object], on: Callable[[], bool]
-    ) -> Action:
-        return key(name, keys, words, act, title=words.capitalize(), icon=ICONS[name], on=on)
+        name: str, keys: str, words: str, act: Callable[[], object], icon: str,
+        on: Callable[[], bool],
+    ) -> Action:  # fmt: skip
+        return key(name, keys, words, act, title=name.capitalize(), icon=icon, on=on)
 
     def chosen(name: str) -> bool:
         return name == editor.tool_name
@@ -99,8 +92,8 @@ def actions_of(editor: Editor) -> dict[str, tuple[Action, ...]]:
               title="Run", on=lambda: not history.changed)  # fmt: skip
     return {
         "Tools": tuple(
-            button(name, letter, words, partial(editor.choose, name), partial(chosen, name))
-            for name, letter, _, words in TOOLS
+            button(name, letter, words, partial(editor.choose, name), icon, partial(chosen, name))
+            for name, letter, words, _, icon in TOOLS
         ),
         "Change": (
             key("pose", "=", "type x y, x y degrees, or a name: there goes the selection",
@@ -125,7 +118,7 @@ def actions_of(editor: Editor) -> dict[str, tuple[Action, ...]]:
         ),
         "Look": (
             button("snap", "G", "snap to the grid on and off", partial(switch, desk, "snaps"),
-                   lambda: desk.snaps),
+                   SNAP, lambda: desk.snaps),
             key("names", "I", "names on and off", partial(switch, editor, "names")),
             key("fit", "F", "fit the workspace into the window", lambda: fit(desk.draft.sketch)),
             key("nearer", "Ctrl +", "zoom in", partial(zoom, 2.0), "Ctrl =", "Ctrl [+]"),

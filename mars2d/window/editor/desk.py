@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from math import floor, hypot, log10
 
 from mars2d.core.errors import InputError
-from mars2d.core.plane import Point, grid_step
+from mars2d.core.plane import Outline, Point, bounds_of, grid_step, rectangle
 from mars2d.output.raster.camera import Camera
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.item import Item, Motion, tidy
@@ -14,6 +14,8 @@ from mars2d.window.screen.viewpoint import Viewpoint
 
 MIN_GRID_STEP = 9.0
 """The smallest step of the grid on the screen, points."""
+SMALL, NEAR = 9.0, 6.0
+"""How near to a beacon or waypoint, and how near to a line, is on it, points."""
 MAX_DRAFTS = 500
 """The length of the history."""
 
@@ -144,13 +146,17 @@ class Desk:
         """The selected item, if there is exactly one."""
         return self.selection[0] if len(self.selection) == 1 else None
 
+    @property
+    def corners(self) -> Outline:
+        """The corners of the selected item, () if there is none with corners."""
+        return () if self.only is None else self.draft.corners(self.only)
+
     def _forget(self) -> None:
         """Remove from the selection items that no longer exist."""
-        kept = tuple(item for item in self.selection if self.draft.holds(item))
+        kept = tuple(item for item in self.selection if item in self.draft.things)
         if kept != self.selection:
             self.select(kept)
-        corners = None if self.only is None else self.draft.corners(self.only)
-        if self.corner is not None and self.corner >= len(corners or ()):
+        if self.corner is not None and self.corner >= len(self.corners):
             self.corner = None
 
     def _show(self, before: Draft) -> None:
@@ -168,9 +174,8 @@ class Desk:
 
     def remove(self) -> None:
         """Remove the last touched corner, or else the selection."""
-        item = self.only
-        corners = None if item is None else self.draft.corners(item)
-        if item is None or corners is None or self.corner is None:
+        item, corners, number = self.only, self.corners, self.corner
+        if item is None or number is None:
             if self.selection:
                 self.put(self.draft.without(self.selection))
                 self.select()
@@ -179,20 +184,19 @@ class Desk:
         if len(corners) == least:
             self.say(f"{self.draft.name(item)} needs {least} corners", warns=True)
             return
-        number, self.corner = self.corner, None
+        self.corner = None
         self.put(self.draft.with_corner(item, number))
 
     def duplicate(self) -> None:
         """Put a copy beside the selection, and select it; of a corner, half-way to the next one."""
-        corners = None if self.only is None else self.draft.corners(self.only)
-        if self.only is not None and corners is not None and self.corner is not None:
-            a, b = corners[self.corner], corners[(self.corner + 1) % len(corners)]
-            middle = tidy((a[0] + b[0]) / 2), tidy((a[1] + b[1]) / 2)
-            self.corner += 1
-            self.put(self.draft.with_corner(self.only, self.corner - 1, a, middle))
-            return
+        corners, number = self.corners, self.corner
         items = [item for item in self.selection if item.kind != "workspace"]
-        if items:
+        if self.only is not None and number is not None:
+            a, b = corners[number], corners[(number + 1) % len(corners)]
+            middle = tidy((a[0] + b[0]) / 2), tidy((a[1] + b[1]) / 2)
+            self.corner = number + 1
+            self.put(self.draft.with_corner(self.only, number, a, middle))
+        elif items:
             aside = Motion(by=(2 * self.step, -2 * self.step))
             self.put_new(self.draft.copied(items, aside))
 
@@ -204,7 +208,7 @@ class Desk:
         step = self.step * (0.1 if fine else 1.0)
         moved = Motion(by=(dx * step, dy * step))
         if self.corner is not None and self.only is not None:
-            place = moved.point((self.draft.corners(self.only) or ())[self.corner])
+            place = moved.point(self.corners[self.corner])
             self.put(self.draft.with_corner(self.only, self.corner, place), tag="nudge")
         elif self.selection:
             self.put(self.draft.moved(self.selection, moved), tag="nudge")
@@ -239,3 +243,27 @@ class Desk:
     def near(self, a: Point, b: Point, points: float) -> bool:
         """Return whether two points are at most this near on the screen."""
         return hypot(a[0] - b[0], a[1] - b[1]) <= self.metres(points)
+
+    # -- what lies where --------------------------------------------------------------------------
+
+    def item_at(self, point: Point, but: Collection[Item] = ()) -> Item | None:
+        """Return the uppermost item at a point [m], None for none; but: those looked through.
+
+        The workspace is never returned.
+        """
+        near = {"waypoint": SMALL, "beacon": SMALL, "wall": NEAR, "outline": NEAR}
+        return next(
+            (
+                item
+                for item in reversed(self.draft.items())
+                if item not in but
+                and self.draft.distance(item, point) <= self.metres(near.get(item.kind, NEAR / 2))
+            ),
+            None,
+        )
+
+    def items_within(self, a: Point, b: Point) -> list[Item]:
+        """Return the items that lie wholly in the rectangle between two corners."""
+        draft, area = self.draft, bounds_of([a, b])
+        boxes = ((item, rectangle(*draft.bounds([item]))) for item in draft.items())
+        return [item for item, box in boxes if bounds_of([a, b, *box]) == area]

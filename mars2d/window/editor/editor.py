@@ -25,20 +25,12 @@ from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.dialogs import Dialogs
 from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft
-from mars2d.window.editor.handles import (
-    NOTCH,
-    draw_culprits,
-    draw_remarks,
-    draw_selected,
-    ring_of,
-)
+from mars2d.window.editor.grips import NOTCH, ring_of
 from mars2d.window.editor.header import Header
 from mars2d.window.editor.item import Item, Motion
-from mars2d.window.editor.placing import Tie
+from mars2d.window.editor.marks import draw_marks, draw_remarks, minus
 from mars2d.window.editor.properties import Properties
-from mars2d.window.editor.readout import minus
-from mars2d.window.editor.select import Select
-from mars2d.window.editor.tool import Tool
+from mars2d.window.editor.tools import Tie, Tool
 from mars2d.window.editor.verdict import Verdict
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.viewpoint import Viewpoint, wheel_notches
@@ -116,8 +108,8 @@ class Editor:
         self._held: set[int] = set()
         self.names = len(draft.robots) + len(draft.props) <= MAX_NAMED
         self._plain = False  # whether only the add-ons that can be edited are drawn
-        self.tool_name = "select"
-        self.tool: Tool = Select(self.desk)
+        self.tool_name, self.tool = "", Tool(self.desk)
+        self.choose("select")
         self.groups = actions_of(self)
         self._actions = {action.name: action for group in self.groups.values() for action in group}
         tools = [self.groups["Tools"], [self._actions["snap"]]]
@@ -259,8 +251,9 @@ class Editor:
         """Take up a tool."""
         self.tool.cancel()
         self.panel.focused = False
-        made = next(make for tool, _, make, _ in TOOLS if tool == name)
-        self.tool_name, self.tool = name, made(self.desk)
+        words, make = next((words, make) for tool, _, words, make, _ in TOOLS if tool == name)
+        self.tool_name, self.tool = name, make(self.desk)
+        self.tool.hint = f"{words[0].upper()}{words[1:]}"
         if self.layout.plot.collidepoint(self._pointer):
             self.tool.pointer = self._world(self._pointer)
 
@@ -278,10 +271,10 @@ class Editor:
     def select_workspace(self) -> None:
         """Select the workspace; make one round all that there is if there is none."""
         self.choose("select")
-        draft, desk = self.desk.draft, self.desk
-        if draft.base.workspace is None:
-            desk.put(draft.with_list("workspace", [rectangle(*draft.sketch.bounds)]))
-        desk.select([Item("workspace")])
+        draft, desk, item = self.desk.draft, self.desk, Item("workspace")
+        if item not in draft.things:
+            desk.put(draft.changed({item: rectangle(*draft.sketch.bounds)}))
+        desk.select([item])
 
     def select_next(self, *, too: bool = False) -> None:
         """Select the item after that selected last, after the last the first; too: one more."""
@@ -415,8 +408,7 @@ class Editor:
     def _draw_plot(self, surface: pygame.Surface) -> None:
         scene = Scene()
         draft = self.desk.draft
-        draw_selected(draft, self.desk.selection, scene)
-        draw_culprits(draft, self.verdict.culprits, scene)
+        draw_marks(draft, self.desk.selection, self.verdict.culprits, scene)
         self.tool.draw(scene)
         plot, camera = self.layout.plot, self.desk.camera
         frame = (draft.bare if self._plain else draft).frame()

@@ -29,7 +29,7 @@ from mars2d.window.editor.dialogs import Dialogs
 from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.item import Item
-from mars2d.window.editor.readout import described, minus
+from mars2d.window.editor.marks import described, minus
 from mars2d.window.widgets.menu import CHOSEN, Entry, Menu
 from mars2d.window.widgets.prompt import Answer
 from mars2d.window.widgets.text_field import TextField
@@ -147,7 +147,7 @@ class Properties:
 
     def _members(self, items: Items) -> Subject:
         draft, put = self._desk.draft, self._desk.put
-        parts = [draft.value(item) for item in items]
+        parts = [draft.things[item] for item in items]
         return Subject(parts, lambda f: put(draft.with_members(items, f)))
 
     def _sensors(self, robots: Items, key: str) -> Subject:
@@ -171,7 +171,7 @@ class Properties:
         """Return the rows about the selection, or about the scenario."""
         if not self._desk.selection:
             return self._rows_of_scenario()
-        first, *others = described(self._desk)
+        first, *others = described(self._desk.draft, self._desk.selection)
         rows = [Entry(first), *(Entry(line, tone="note") for line in others)]
         bodies = tuple(item for item in self._desk.selection if item.kind in ("robot", "prop"))
         if not bodies:
@@ -200,11 +200,9 @@ class Properties:
         return standing_still(draft.sketch, self._document.control)
 
     def _rows_of_corners(self) -> list[Entry]:
-        item = self._desk.only
-        corners = None if item is None else self._desk.draft.corners(item)
         return [
             Entry(f"Corner {k}", partial(self._touch, k), value=minus(f"{x:.4g}, {y:.4g} m"))
-            for k, (x, y) in enumerate(corners or ())
+            for k, (x, y) in enumerate(self._desk.corners)
         ]
 
     def _rows_of_robots(self, robots: Items) -> list[Entry]:
@@ -271,8 +269,9 @@ class Properties:
         for name, field in subject.plain.items():
             if name not in but:
                 words, ask = subject.in_words(field), partial(self._ask, subject, name)
-                place = "value" if len(words) < LONG else "more"
-                rows.append(Entry(_title(name).capitalize(), ask, **{place: words}))
+                short = len(words) < LONG
+                value, more = (words, "") if short else ("", words)
+                rows.append(Entry(_title(name).capitalize(), ask, value=value, more=more))
         return rows
 
     # -- asking ---------------------------------------------------------------------------------

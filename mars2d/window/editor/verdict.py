@@ -91,8 +91,8 @@ def _within(point: Point, workspace: Outline) -> bool:
 
 def _obstacles(draft: Draft) -> Iterator[Item | None]:
     """Return the items of the obstacles; None for those that other add-ons make."""
-    mine = {outline: Item("outline", i) for i, outline in enumerate(draft.listed("outline"))}
-    for i, wall in enumerate(draft.listed("wall")):
+    mine = {outline: Item("outline", i) for i, outline in enumerate(draft.listed["outline"])}
+    for i, wall in enumerate(draft.listed["wall"]):
         mine |= dict.fromkeys(pairwise(wall), Item("wall", i))
     for outline in draft.sketch.obstacles:
         yield mine.get(outline)
