@@ -20,7 +20,6 @@ from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor import Editor
 from mars2d.window.editor.desk import Desk
-from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft, Item, Motion
 from mars2d.window.editor.grips import spanned
 from mars2d.window.editor.verdict import judge
@@ -246,20 +245,17 @@ def test_a_box_spans_two_corners_whichever_way():
         assert box.pose == pytest.approx((end[0] / 2, end[1] / 2, pi / 2))
 
 
-def test_a_document_proposes_a_name_that_is_free_and_never_a_py(tmp_path, monkeypatch):
+def test_a_file_gets_a_name_that_is_free_and_never_that_of_a_py(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "walk.toml").write_text("")
-    assert Document(tmp_path / "walk.py").path is None
-    assert Document(tmp_path / "walk.py").proposal.endswith("walk_2.toml")
-    assert Document(tmp_path / "walk.toml").path == tmp_path / "walk.toml"
-    assert Document(None).proposal == "scenario.toml"
-    document = Document(tmp_path / "room.toml")
-    assert (document.path, document.new) == (tmp_path / "room.toml", True)
-    (tmp_path / "room.toml").write_text("somebody else's")
-    assert document.is_another(tmp_path / "room.toml")
-    document.save(Scenario(robots=1), tmp_path / "room.toml")
-    assert not document.new
-    assert not document.is_another(tmp_path / "room.toml")
+    for given, path, proposal, new in (
+        (Path("walk.py"), None, "walk_2.toml", True),
+        (Path("walk.toml"), Path("walk.toml"), "walk_2.toml", False),
+        (Path("room.toml"), Path("room.toml"), "room.toml", True),
+        (None, None, "scenario.toml", True),
+    ):
+        dialogs = Editor(Scenario(robots=1), Looks(), path=given).dialogs
+        assert (dialogs.path, dialogs.proposal, dialogs.new) == (path, proposal, new)
 
 
 # -- the editor on a surface ----------------------------------------------------------------------

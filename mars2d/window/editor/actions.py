@@ -33,7 +33,7 @@ TOOLS: tuple[tuple[str, str, str, Callable[[Desk], tools.Tool], str], ...] = (
     ("puck", "U", "puck: click, or drag for its size",
      partial(Place, make=partial(tools.prop, Puck)),
      "M4 10a8 4 0 1 0 16 0a8 4 0 1 0-16 0M4 10v4a8 4 0 0 0 16 0v-4"),
-    ("solid", "S", "prop of any shape: click its corners; the first or Enter closes, Backspace goes back",
+    ("solid", "S", "prop: click its corners; the first or Enter closes, Backspace goes back",
      partial(Chain, kind="prop", make=tools.solid), "M6 20 3 9l8-5 2 6 8 1-5 9Z"),
     ("wall", "W", "wall: click its corners; Enter, Esc or a right click ends it",
      partial(Chain, kind="wall"), "M3 19l5-11 7 4 6-8M8 8h.1M15 12h.1"),

@@ -25,10 +25,13 @@ class History:
 
     def __init__(self, draft: Draft) -> None:
         """Start with a draft that counts as saved."""
-        self.draft, self._tag = draft, ""
         self.saved: Draft | None = draft
-        self._past: list[Draft] = []
-        self._ahead: list[Draft] = []
+        self._drafts, self._at, self._tag = [draft], 0, ""
+
+    @property
+    def draft(self) -> Draft:
+        """The present draft."""
+        return self._drafts[self._at]
 
     @property
     def changed(self) -> bool:
@@ -37,29 +40,24 @@ class History:
 
     def put(self, draft: Draft, tag: str = "") -> None:
         """Continue with a draft. Consecutive changes with the same tag are undone as one."""
-        if draft == self.draft:
-            return
-        if not tag or tag != self._tag:
-            self._past = [*self._past, self.draft][-MAX_DRAFTS:]
-        self._ahead, self.draft, self._tag = [], draft, tag
+        if draft != self.draft:
+            kept = self._drafts[: self._at + (not tag or tag != self._tag)]
+            self._drafts, self._tag = [*kept, draft][-MAX_DRAFTS:], tag
+            self._at = len(self._drafts) - 1
 
     def has(self, by: int) -> bool:
         """Return whether there is a change to redo, or for a number below 0 to undo."""
-        return bool(self._ahead if by > 0 else self._past)
+        return 0 <= self._at + by < len(self._drafts)
 
     def go(self, by: int) -> bool:
         """Redo a change, or undo one for a number below 0; return whether there was one."""
-        source, target = (self._ahead, self._past) if by > 0 else (self._past, self._ahead)
-        self._tag = ""
-        if source:
-            target.append(self.draft)
-            self.draft = source.pop()
-            return True
-        return False
+        there, self._tag = self.has(by), ""
+        self._at += by * there
+        return there
 
     def save(self, saved: Draft) -> None:
         """Count the present draft as saved; saved: it, with the title that it has got."""
-        self.draft = self.saved = saved
+        self._drafts[self._at] = self.saved = saved
         self._tag = ""
 
 

@@ -11,7 +11,6 @@ from typing import Any
 
 import pygame
 
-from mars2d.bodies.joints.base import Joint
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.plane import Point, rectangle
 from mars2d.core.scene import Scene
@@ -23,14 +22,13 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor.actions import TOOLS, actions_of
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.dialogs import Dialogs
-from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.grips import NOTCH, ring_of
 from mars2d.window.editor.header import Header
 from mars2d.window.editor.item import Item, Motion
 from mars2d.window.editor.marks import draw_marks, draw_remarks, minus
 from mars2d.window.editor.properties import Properties
-from mars2d.window.editor.tools import Tie, Tool
+from mars2d.window.editor.tools import Tool
 from mars2d.window.editor.verdict import Verdict
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.viewpoint import Viewpoint, wheel_notches
@@ -40,7 +38,6 @@ from mars2d.window.widgets.help import Help
 from mars2d.window.widgets.menu import Menu
 from mars2d.window.widgets.prompt import Answer
 from mars2d.window.widgets.slider import draw_tooltip
-from mars2d.window.widgets.text_field import TextField
 
 NUDGES = {"←": (-1, 0), "→": (1, 0), "↑": (0, 1), "↓": (0, -1)}
 HEADER = ("undo", "redo", "start", "now", "save", "run")
@@ -87,7 +84,6 @@ class Editor:
         self.looks, self.live = looks, live
         painter = self.painter = looks.painter
         self.help = Help()
-        self.document = Document(path, control)
         draft = Draft.empty(scenario) if empty else Draft(scenario)
         self.viewpoint = Viewpoint(draft.sketch, self._laid_out((1280, 720)))
         self.desk = Desk(draft, self.viewpoint)
@@ -95,13 +91,10 @@ class Editor:
             self.desk.history.saved = None
         self.menu, self.panel = Menu(), Menu(docked=True)
         self.dialogs = Dialogs(
-            self.desk, self.menu, self.document, scenario,
-            live=live, complete=lambda: self.tool.confirm(),  # noqa: PLW0108
+            self.desk, self.menu, lambda: self.tool.confirm(),  # noqa: PLW0108
+            path, control, scenario if live else None,
         )  # fmt: skip
-        self.properties = Properties(
-            self.desk, self.dialogs, self.document, self.menu, self.panel,
-            self.choose, self._tie, self._touch,
-        )  # fmt: skip
+        self.properties = Properties(self)
         self._stage = Stage(painter)
         self._pointer = (-1, -1)
         self._dragging = self._panning = False
@@ -120,7 +113,7 @@ class Editor:
     @property
     def title(self) -> str:
         """The text of the header."""
-        return self.desk.draft.base.title if self.live else self.document.name
+        return self.desk.draft.base.title if self.live else self.dialogs.name
 
     @property
     def layout(self) -> Layout:
@@ -248,20 +241,18 @@ class Editor:
     # -- tools and changes ----------------------------------------------------------------------
 
     def choose(self, name: str) -> None:
-        """Take up a tool."""
+        """Take up a tool of the toolbar."""
+        words, make = next((words, make) for tool, _, words, make, _ in TOOLS if tool == name)
+        self.take_up(name, make(self.desk))
+        self.tool.hint = f"{words[0].upper()}{words[1:]}"
+
+    def take_up(self, name: str, tool: Tool) -> None:
+        """Take up a tool that has been made."""
         self.tool.cancel()
         self.panel.focused = False
-        words, make = next((words, make) for tool, _, words, make, _ in TOOLS if tool == name)
-        self.tool_name, self.tool = name, make(self.desk)
-        self.tool.hint = f"{words[0].upper()}{words[1:]}"
+        self.tool_name, self.tool = name, tool
         if self.layout.plot.collidepoint(self._pointer):
             self.tool.pointer = self._world(self._pointer)
-
-    def _tie(self, kind: type[Joint], items: tuple[Item, ...]) -> None:
-        """Let the person choose what items are tied to by a joint of a kind."""
-        self.tool.cancel()
-        self.tool_name, self.panel.focused = "tie", False
-        self.tool = Tie(self.desk, kind, items, lambda: self.choose("select"))
 
     def select_all(self) -> None:
         """Select all items."""
@@ -283,25 +274,13 @@ class Editor:
         self.choose("select")
         self.desk.select([*chosen * too, *items[place % max(1, len(items)) :][:1]])
 
-    def _touch(self, corner: int) -> None:
-        """Choose a corner of the selection, and ask where it lies."""
-        if self.tool_name != "select":
-            self.choose("select")
-        self.desk.corner = corner
-        self.ask_pose()
-
     def ask_pose(self) -> None:
         """Ask where to put the selection, or a new item."""
         if self.tool_name == "select" and not self.desk.selection:
             self.desk.say("select something first, or choose a tool that places items", warns=True)
             return
-        enter = Answer("apply", self._put)
-        self.dialogs.ask(
-            "x y [degrees] =",
-            enter,
-            field=TextField(opened_by_key=True),
-            doc="such as 1.5 2 90, or the name of a thing that is there",
-        )
+        doc = "such as 1.5 2 90, or the name of a thing that is there"
+        self.dialogs.ask("x y [degrees] =", Answer("apply", self._put), text="", doc=doc)
 
     def _put(self, text: str) -> None:
         """Put the selection, or a new item, at typed numbers or where a thing of a name is."""
@@ -453,4 +432,4 @@ class Editor:
             return "the run is paused"
         if self.desk.history.changed:
             return "not saved yet"
-        return "new" if self.document.new else ""
+        return "new" if self.dialogs.new else ""

@@ -63,11 +63,18 @@ class Prompts:
         self,
         label: str,
         *answers: Answer,
-        field: TextField | None = None,
+        text: str | None = None,
         doc: str = "",
         escape: str = "cancel",
     ) -> None:
-        """Open a prompt, of which Enter gives the first answer; escape: what Esc does, in words."""
+        """Open a prompt, of which Enter gives the first answer.
+
+        text: stands in a field to type in, selected; None for no field. escape: what Esc does, in
+        words.
+        """
+        field = None if text is None else TextField(text, opened_by_key=True)
+        if field is not None:
+            field.select_all()
         self._show(Prompt(label, field, doc), [*answers, Answer(escape, key="Esc")])
 
     def _show(self, prompt: Prompt, answers: Sequence[Answer]) -> None:
