@@ -110,11 +110,12 @@ class Draft:
             "robot": self.robots,
             "beacon": tuple(addon for addon in base.addons if isinstance(addon, Beacon)),
             "waypoint": (*routes, *[()] * (len(base.robots) - len(routes))),
+            "joint": tuple(base.joints),
         }
 
     @cached_property
     def things(self) -> dict[Item, Any]:
-        """All items, the lowest first, with what each is: a body, corners, a beacon, a point."""
+        """All items, the lowest first, and what each is: a body, corners, a beacon, a point, ..."""
         routes = enumerate(self.listed["waypoint"])
         plain = {
             Item(kind, i): value
@@ -125,12 +126,12 @@ class Draft:
         return plain | {Item("waypoint", i, k): p for i, way in routes for k, p in enumerate(way)}
 
     def items(self) -> tuple[Item, ...]:
-        """Return all items but the workspace, the lowest first."""
-        return tuple(item for item in self.things if item.kind != "workspace")
+        """Return all items but the workspace and joints, the lowest first."""
+        return tuple(item for item in self.things if item.kind not in ("workspace", "joint"))
 
     def new_since(self, before: Draft) -> list[Item]:
         """Return the items that an earlier draft did not have as they are now."""
-        now, then = (Counter(map(draft._key, draft.things)) for draft in (self, before))
+        now, then = (Counter(map(draft._key, draft.items())) for draft in (self, before))
         new = now - then
         return [item for item in self.items() if self._key(item) in new]
 
@@ -241,8 +242,8 @@ class Draft:
             others = [addon for addon in addons if not isinstance(addon, Beacon)]
             addons = [*others[:first], *found["beacon"], *others[len(others[:first]) :]]
         (workspace, *_) = (*found["workspace"], None)
-        robots, props = tuple(found["robot"]), tuple(found["prop"])
-        return self.with_base(workspace=workspace, addons=tuple(addons), robots=robots, props=props)
+        bodies = {name: tuple(found[name[:-1]]) for name in ("robots", "props", "joints")}
+        return self.with_base(workspace=workspace, addons=tuple(addons), **bodies)
 
     def with_corner(self, item: Item, number: int, *new: Point) -> Self:
         """Return the draft with any number of corners in place of one of an outline."""
@@ -312,19 +313,10 @@ class Draft:
         draft = draft.changed(values)
         return draft._pinned(draft.names(items))
 
-    def with_joint(self, joint: Joint | None, instead: Joint | None = None) -> Self:
-        """Return the draft with one more joint, or with one in place of another; None: without."""
-        new = () if joint is None else (joint,)
-        if instead is None:
-            draft = self.with_base(joints=(*self.base.joints, *new))
-            return draft._fixed({name for each in new for name in (each.a, each.b) if name})
-        kept = [new if each is instead else (each,) for each in self.base.joints]
-        return self.with_base(joints=tuple(joint for some in kept for joint in some))
-
     def added(self, models: Mapping[Item, Any]) -> Self:
         """Return the draft with one more item for each, of its kind, a waypoint on its route.
 
-        Bodies and beacons get new names.
+        Bodies and beacons get new names. Bodies that are tied no longer start at random.
         """
         taken = {part.name for part in self._members()} | {a.key for a in self.base.addons}
         new: dict[Item, Any] = {}
@@ -339,13 +331,15 @@ class Draft:
             else:
                 place = Item(item.kind, len(self.listed[item.kind]) + len(new))
             new[place] = value
-        return self.changed(new)
+        joints = (value for value in new.values() if isinstance(value, Joint))
+        ends = [name for joint in joints for name in (joint.a, joint.b) if name]
+        return self.changed(new)._fixed(ends)
 
     def without(self, items: Collection[Item]) -> Self:
         """Return the draft without items; with a body go its route and its joints."""
-        names = self.names(items)
-        joints = tuple(joint for joint in self.base.joints if names.isdisjoint((joint.a, joint.b)))
-        return self._fixed(names).with_base(joints=joints).changed(dict.fromkeys(items))
+        names, joints = self.names(items), enumerate(self.base.joints)
+        untied = [Item("joint", k) for k, j in joints if not names.isdisjoint((j.a, j.b))]
+        return self._fixed(names).changed(dict.fromkeys([*items, *untied]))
 
     def copied(self, items: Collection[Item], motion: Motion) -> Self:
         """Return the draft with moved copies of items, tied to each other as these are."""
@@ -355,13 +349,13 @@ class Draft:
             models = [self.name(item) for item in items if item.kind == kind]
             copies = [part.name for part in draft.listed[kind][len(self.listed[kind]) :]]
             names |= dict(zip(models, copies, strict=True))
-        names[None] = None
-        for joint in self.base.joints:
+        names[None], joints = None, {}
+        for k, joint in enumerate(self.base.joints):
             if joint.a in names and joint.b in names:
                 at = motion.point(joint.anchor_b) if joint.b is None else joint.anchor_b
-                copy_ = joint.replace(a=names[joint.a], b=names[joint.b], anchor_b=at)
-                draft = draft.with_joint(copy_)
-        return draft
+                ends = {"a": names[joint.a], "b": names[joint.b], "anchor_b": at}
+                joints[Item("joint", k)] = joint.replace(**ends)
+        return draft.added(joints)
 
 
 def seen_from(body: Rigid | None, point: Point) -> Point:

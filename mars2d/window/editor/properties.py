@@ -143,9 +143,9 @@ class Properties:
         parts = [robot.sensor(key) for robot in whole.parts]
         return Subject(parts, lambda f: whole.change(partial(changed, f)))
 
-    def _joint(self, joint: Joint) -> Subject:
+    def _joint(self, item: Item, joint: Joint) -> Subject:
         draft, put = self._desk.draft, self._desk.put
-        return Subject([joint], lambda f: put(draft.with_joint(f(joint), instead=joint)))
+        return Subject([joint], lambda f: put(draft.changed({item: f(joint)})))
 
     # -- rows -----------------------------------------------------------------------------------
 
@@ -228,10 +228,11 @@ class Properties:
         kinds, draft = _listed(members("joints"), partial(self._tie, bodies)), self._desk.draft
         rows = [Entry("Joints", partial(self._open, "Tie it by a", kinds), value="add one")]
         name = draft.name(bodies[0])
-        for joint in draft.base.joints if len(bodies) == 1 else ():
+        for k, joint in enumerate(draft.base.joints if len(bodies) == 1 else ()):
             if name in (joint.a, joint.b):
                 kind, other = type(joint).__name__, joint.b if joint.a == name else joint.a
-                rows.append(self._part(f"{kind} to {other or 'the floor'}", "", self._joint(joint)))
+                subject = self._joint(Item("joint", k), joint)
+                rows.append(self._part(f"{kind} to {other or 'the floor'}", "", subject))
         return rows
 
     def _part(

@@ -412,10 +412,12 @@ class Tie(Tool):
         ends: dict[str, Any] = {"b": None if body is None else body.name}
         if body is None or self._pins:
             ends["anchor_b"] = seen_from(body, at)
-        for item in self._items:
+        joints = {}
+        for k, item in enumerate(self._items):
             if self._pins:
                 ends["anchor_a"] = seen_from(draft.body(item), at)
-            draft = draft.with_joint(self._kind(a=draft.name(item), **ends))
+            joints[Item("joint", k)] = self._kind(a=draft.name(item), **ends)
+        draft = draft.added(joints)
         if draft.verdict.text and not desk.draft.verdict.text:
             raise InputError(draft.verdict.text)
         desk.put(draft)

@@ -6,10 +6,9 @@ from collections.abc import Iterator
 from itertools import islice, pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
-import numpy as np
+import shapely
 
 from mars2d.core.errors import Mars2dError
-from mars2d.core.plane import Outline, Point, outside_polygon
 from mars2d.scenario import starts
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor.item import Item
@@ -84,11 +83,6 @@ def _misplaced(draft: Draft) -> Iterator[Fault]:
         yield Fault(text, (item, other))
 
 
-def _within(point: Point, workspace: Outline) -> bool:
-    x, y = np.array([point]).T
-    return not outside_polygon(x, y, np.array(workspace))[0]
-
-
 def _obstacles(draft: Draft) -> Iterator[Item | None]:
     """Return the items of the obstacles; None for those that other add-ons make."""
     mine = {outline: Item("outline", i) for i, outline in enumerate(draft.listed["outline"])}
@@ -101,6 +95,6 @@ def _obstacles(draft: Draft) -> Iterator[Item | None]:
 def _stray(draft: Draft) -> Iterator[Fault]:
     """Find waypoints outside the workspace."""
     ring = None if draft.base.on_exit == "ignore" else draft.base.workspace
-    for item in draft.items() if ring else ():
-        if item.kind == "waypoint" and not _within(draft.place(item), ring or ()):
+    for item, point in draft.things.items() if ring else ():
+        if item.kind == "waypoint" and not shapely.Polygon(ring).covers(shapely.Point(point)):
             yield Fault(f"{draft.name(item)} lies outside the workspace", (item,))
