@@ -169,7 +169,7 @@ def test_things_turn_about_a_point_and_come_back():
 def fault(draft):
     verdict = judge(draft)
     assert verdict.scenario is None
-    return verdict.faults[0].text, verdict.culprits
+    return verdict.text, verdict.culprits
 
 
 @each_case(

@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable
 from math import floor, hypot, log10
 
+import numpy as np
+import shapely
+
 from mars2d.core.errors import InputError
-from mars2d.core.plane import Outline, Point, bounds_of, grid_step, rectangle
+from mars2d.core.plane import Outline, Point, grid_step
 from mars2d.output.raster.camera import Camera
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.item import Item, Motion, tidy
@@ -14,10 +17,11 @@ from mars2d.window.screen.viewpoint import Viewpoint
 
 MIN_GRID_STEP = 9.0
 """The smallest step of the grid on the screen, points."""
-SMALL, NEAR = 9.0, 6.0
-"""How near to a beacon or waypoint, and how near to a line, is on it, points."""
 MAX_DRAFTS = 500
 """The length of the history."""
+NEAR, POINT_RADIUS = 5.0, 4.0
+"""A point this far from an item still hits it, and the radius of beacons and waypoints, points of
+the screen."""
 
 
 class History:
@@ -26,12 +30,12 @@ class History:
     def __init__(self, draft: Draft) -> None:
         """Start with a draft that counts as saved."""
         self.saved: Draft | None = draft
-        self._drafts, self._at, self._tag = [draft], 0, ""
+        self._drafts, self._now, self._tag = [draft], 0, ""
 
     @property
     def draft(self) -> Draft:
         """The present draft."""
-        return self._drafts[self._at]
+        return self._drafts[self._now]
 
     @property
     def changed(self) -> bool:
@@ -40,24 +44,25 @@ class History:
 
     def put(self, draft: Draft, tag: str = "") -> None:
         """Continue with a draft. Consecutive changes with the same tag are undone as one."""
-        if draft != self.draft:
-            kept = self._drafts[: self._at + (not tag or tag != self._tag)]
-            self._drafts, self._tag = [*kept, draft][-MAX_DRAFTS:], tag
-            self._at = len(self._drafts) - 1
+        if draft == self.draft:
+            return
+        end = self._now + (not tag or tag != self._tag)
+        self._drafts = [*self._drafts[:end], draft][-MAX_DRAFTS:]
+        self._now, self._tag = len(self._drafts) - 1, tag
 
     def has(self, by: int) -> bool:
         """Return whether there is a change to redo, or for a number below 0 to undo."""
-        return 0 <= self._at + by < len(self._drafts)
+        return 0 <= self._now + by < len(self._drafts)
 
     def go(self, by: int) -> bool:
         """Redo a change, or undo one for a number below 0; return whether there was one."""
-        there, self._tag = self.has(by), ""
-        self._at += by * there
-        return there
+        moves = self.has(by)
+        self._now, self._tag = self._now + by * moves, ""
+        return moves
 
     def save(self, saved: Draft) -> None:
         """Count the present draft as saved; saved: it, with the title that it has got."""
-        self._drafts[self._at] = self.saved = saved
+        self._drafts[self._now] = self.saved = saved
         self._tag = ""
 
 
@@ -87,11 +92,11 @@ class Desk:
         """The present draft, also in the middle of a drag."""
         return self.history.draft if self._held is None else self._held
 
-    def put(self, draft: Draft, tag: str = "") -> None:
-        """Continue with a draft; tag: as for `History.put`."""
-        self._held = None
+    def put(self, draft: Draft, tag: str = "", *, shows: bool = False) -> None:
+        """Continue with a draft; tag: as for `History.put`. shows: select what is new in it."""
+        before, self._held = self.history.draft, None
         self.history.put(draft, tag)
-        self._forget()
+        self._see(before if shows else draft)
 
     def hold(self, to: Callable[[Point, bool], Draft], point: Point, *, shift: bool) -> None:
         """Show the draft of a drag to a point; an InputError is shown, and it stays as it was."""
@@ -105,33 +110,20 @@ class Desk:
     def settle(self) -> None:
         """Continue with the draft of the drag."""
         if self._held is not None:
-            self.put_new(self._held)
-
-    def put_new(self, draft: Draft) -> None:
-        """Continue with a draft, and select its new items."""
-        before = self.history.draft
-        self.put(draft)
-        self._show(before)
+            self.put(self._held, shows=True)
 
     def drop(self) -> bool:
         """Drop the draft of the drag; return whether there was one."""
         held, self._held = self._held, None
+        self._see(self.draft)
         return held is not None
 
-    def undo(self) -> None:
-        """Undo the last change."""
-        self._go(-1, "undo")
-
-    def redo(self) -> None:
-        """Redo the last change that was undone."""
-        self.drop()
-        self._go(1, "redo")
-
-    def _go(self, by: int, words: str) -> None:
+    def go(self, by: int) -> None:
+        """Redo a change, or for a number below 0 undo one, if only that of a drag."""
         before = self.draft
-        if not self.drop() and not self.history.go(by):
-            self.say(f"there is nothing to {words}")
-        self._show(before)
+        if not (self.drop() and by < 0) and not self.history.go(by):
+            self.say(f"there is nothing to {'redo' if by > 0 else 'undo'}")
+        self._see(before)
 
     # -- the selection ----------------------------------------------------------------------------
 
@@ -146,23 +138,39 @@ class Desk:
 
     @property
     def corners(self) -> Outline:
-        """The corners of the selected item, () if there is none with corners."""
+        """The corners of the selected item; none if it has none, or if several are selected."""
         return () if self.only is None else self.draft.corners(self.only)
 
-    def _forget(self) -> None:
-        """Remove from the selection items that no longer exist."""
+    def _see(self, before: Draft) -> None:
+        """Select what a draft before did not have; select nothing that is no longer there."""
         kept = tuple(item for item in self.selection if item in self.draft.things)
         if kept != self.selection:
             self.select(kept)
-        if self.corner is not None and self.corner >= len(self.corners):
-            self.corner = None
-
-    def _show(self, before: Draft) -> None:
-        """Select the items that a draft before did not have, if there are such."""
-        self._forget()
         new = self.draft.new_since(before)
         if not set(new) <= set(self.selection):
             self.select(new)
+        if self.corner is not None and self.corner >= len(self.corners):
+            self.corner = None
+
+    def item_at(self, point: Point, but: Collection[Item] = ()) -> Item | None:
+        """Return the uppermost item at a point [m], or None; the workspace is never returned.
+
+        but: items that are looked through.
+        """
+        shapes = {item: s for item, s in self.draft.shapes.items() if item not in but}
+        small = [item.kind in ("waypoint", "beacon") for item in shapes]
+        gaps = shapely.distance([*shapes.values()], shapely.Point(point))
+        gaps = np.maximum(gaps - self.metres(POINT_RADIUS) * np.array(small), 0.0)
+        least = gaps.min(initial=self.metres(NEAR))
+        hit = [item for item, gap in zip(shapes, gaps, strict=True) if gap <= least]
+        return hit[-1] if hit else None
+
+    def items_within(self, a: Point, b: Point) -> list[Item]:
+        """Return the items that lie wholly in the rectangle between two corners."""
+        shapes = self.draft.shapes
+        area = shapely.box(*np.minimum(a, b), *np.maximum(a, b))
+        inside = shapely.covers(area, shapely.envelope([*shapes.values()]))
+        return [item for item, lies in zip(shapes, inside, strict=True) if lies]
 
     def say(self, text: str, *, warns: bool = False) -> None:
         """Show a text in the footer, until the next action."""
@@ -187,16 +195,15 @@ class Desk:
 
     def duplicate(self) -> None:
         """Put a copy beside the selection, and select it; of a corner, half-way to the next one."""
-        corners, number = self.corners, self.corner
-        items = [item for item in self.selection if item.kind != "workspace"]
-        if self.only is not None and number is not None:
-            a, b = corners[number], corners[(number + 1) % len(corners)]
+        if self.only is not None and self.corner is not None:
+            a, b = (*self.corners, self.corners[0])[self.corner : self.corner + 2]
             middle = tidy((a[0] + b[0]) / 2), tidy((a[1] + b[1]) / 2)
-            self.corner = number + 1
-            self.put(self.draft.with_corner(self.only, number, a, middle))
-        elif items:
-            aside = Motion(by=(2 * self.step, -2 * self.step))
-            self.put_new(self.draft.copied(items, aside))
+            self.put(self.draft.with_corner(self.only, self.corner, a, middle))
+            self.corner += 1
+            return
+        items = [item for item in self.selection if item.kind != "workspace"]
+        aside = Motion(by=(2 * self.step, -2 * self.step))
+        self.put(self.draft.copied(items, aside), shows=True)
 
     def nudge(self, dx: int, dy: int, *, fine: bool) -> None:
         """Move the last touched corner, or else the selection, by steps of the grid.
@@ -219,18 +226,13 @@ class Desk:
         return self.viewpoint.camera
 
     @property
-    def ui(self) -> float:
-        """Pixels a point."""
-        return self.viewpoint.layout.ui
-
-    @property
     def step(self) -> float:
         """The step of the grid to which points snap, metres."""
-        return grid_step(MIN_GRID_STEP * self.ui / self.camera.scale)
+        return grid_step(self.metres(MIN_GRID_STEP))
 
     def metres(self, points: float) -> float:
         """Return the length of points of the screen, metres."""
-        return points * self.ui / self.camera.scale
+        return points * self.viewpoint.layout.ui / self.camera.scale
 
     def snapped(self, point: Point) -> Point:
         """Return the nearest grid point; without snapping, the point to a fraction of a pixel."""
@@ -241,27 +243,3 @@ class Desk:
     def near(self, a: Point, b: Point, points: float) -> bool:
         """Return whether two points are at most this near on the screen."""
         return hypot(a[0] - b[0], a[1] - b[1]) <= self.metres(points)
-
-    # -- what lies where --------------------------------------------------------------------------
-
-    def item_at(self, point: Point, but: Collection[Item] = ()) -> Item | None:
-        """Return the uppermost item at a point [m], None for none; but: those looked through.
-
-        The workspace is never returned.
-        """
-        near = {"waypoint": SMALL, "beacon": SMALL, "wall": NEAR, "outline": NEAR}
-        return next(
-            (
-                item
-                for item in reversed(self.draft.items())
-                if item not in but
-                and self.draft.distance(item, point) <= self.metres(near.get(item.kind, NEAR / 2))
-            ),
-            None,
-        )
-
-    def items_within(self, a: Point, b: Point) -> list[Item]:
-        """Return the items that lie wholly in the rectangle between two corners."""
-        draft, area = self.draft, bounds_of([a, b])
-        boxes = ((item, rectangle(*draft.bounds([item]))) for item in draft.items())
-        return [item for item, box in boxes if bounds_of([a, b, *box]) == area]

@@ -23,7 +23,7 @@ from mars2d.bodies.rigid import Rigid
 from mars2d.core import checks
 from mars2d.core.description import snake_case
 from mars2d.core.errors import InputError
-from mars2d.core.plane import Outline, Point, bounds_of
+from mars2d.core.plane import Outline, Point
 from mars2d.record.frame import Frame
 from mars2d.scenario.random_starts import RandomStarts
 from mars2d.scenario.robot import Robot
@@ -181,25 +181,19 @@ class Draft:
         """Return whether an item is a line, with nothing inside."""
         return item.kind == "wall" or len(self.corners(item)) == 2
 
-    def distance(self, item: Item, point: Point) -> float:
-        """Return the distance of a point to an item, at most 0 inside, metres."""
-        shape = shapely.LineString if self.is_line(item) else shapely.Polygon
-        rims = self.rims(item)
-        forms = [shape(points) if points[1:] else shapely.Point(points) for points, _ in rims]
-        gaps = shapely.distance(forms, shapely.Point(point)) - [radius for _, radius in rims]
-        return float(gaps.min())
+    @cached_property
+    def shapes(self) -> dict[Item, Any]:
+        """Where the items lie, as geometries of shapely [m], the lowest first."""
+        return {item: self.shape(item) for item in self.items()}
 
-    def bounds(self, items: Collection[Item]) -> tuple[float, float, float, float]:
-        """Return (xmin, xmax, ymin, ymax) of items, metres."""
-        rims = [rim for item in items for rim in self.rims(item)]
-        return bounds_of(
-            [
-                (x + side, y + side)
-                for points, radius in rims
-                for x, y in points
-                for side in (-radius, radius)
-            ]
-        )
+    def shape(self, item: Item) -> Any:
+        """Return where an item lies, as a geometry of shapely [m]."""
+        line = shapely.LineString if self.is_line(item) else shapely.Polygon
+        return shapely.GeometryCollection([
+            line(points) if points[1:] else shapely.Point(points).buffer(radius)
+            if radius else shapely.Point(points)
+            for points, radius in self.rims(item)
+        ])  # fmt: skip
 
     def starts_at_random(self, item: Item) -> bool:
         """Return whether a robot or prop starts elsewhere in each run."""

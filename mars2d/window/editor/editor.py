@@ -44,15 +44,13 @@ HEADER = ("undo", "redo", "start", "now", "save", "run")
 """The actions with buttons in the header, where they are offered."""
 WIDTH, SIDE = 58.0, 46.0
 """The widths of the toolbar and of its buttons, points."""
-TALL, MAX_SHARE = 560.0, 0.15
-"""The height from which on the toolbar has one column, points, and its largest share of the
-window's width."""
-PANEL, MAX_PANEL, ARENA = 268.0, 0.34, 0.42
+TALL, MAX_SHARE, NARROW = 560.0, 0.11, 96.0
+"""The height from which on the toolbar has one column, points; its largest share of the window's
+width, and the width that it may always have, pixels."""
+PANEL, MAX_PANEL, ARENA = 268.0, 0.34, 0.405
 """The width of the panel, points, its largest share of the window's width, and the share of the
 window that it leaves to the drawing."""
-ROOMY = 800.0
-"""The width from which on the footer has room for one more hint, points."""
-PANEL_HINT = "Arrows choose a row, Enter opens it, Esc leaves the panel"
+PANEL_HINT = "Arrows choose a row, Enter opens it, Esc leaves"
 STEP = 16.0
 """The height of the line below them, with the step of the grid, points."""
 LAYERS = Layers(trails=False, sensors=False, messages=False)
@@ -309,7 +307,7 @@ class Editor:
     def undo(self) -> None:
         """Remove the last corner of the outline being drawn, or else undo the last change."""
         if not self.tool.back():
-            self.desk.undo()
+            self.desk.go(-1)
 
     # -- the view -------------------------------------------------------------------------------
 
@@ -322,7 +320,7 @@ class Editor:
     def _laid_out(self, size: tuple[int, int]) -> Layout:
         layout = self.looks.layout(size)
         room, columns = layout.plot.copy(), 1.0 if layout.plot.height >= TALL * layout.ui else 1.6
-        left = round(min(columns * WIDTH * layout.ui, MAX_SHARE * size[0]))
+        left = round(min(columns * WIDTH * layout.ui, max(MAX_SHARE * size[0], NARROW)))
         room.left, room.width = left, max(1, room.width - left)
         free = room.width - ARENA * size[0] * size[1] / room.height
         room.width -= round(max(1, min(PANEL * layout.ui, MAX_PANEL * size[0], free)))
@@ -409,16 +407,15 @@ class Editor:
         desk, verdict, layout = self.desk, self.verdict, self.layout
         text = PANEL_HINT if self.panel.focused else self.tool.hint
         banner = Banner(desk.notice, error=desk.warns) if desk.notice else None
-        if banner is None and verdict.faults and desk.draft.robots:
+        if banner is None and verdict.text and desk.draft.robots:
             banner = Banner(verdict.text, error=True)
-        elif verdict.faults and self.tool_name == "select":
+        elif verdict.text and self.tool_name == "select":
             text = verdict.text[:1].upper() + verdict.text[1:]
         hints = [*[("Esc", "leaves")] * self.live, ("F1", "all keys")]
         if layout.plot.collidepoint(self._pointer):
             x, y = desk.snapped(self._world(self._pointer))
             hints = [("", minus(f"x {x:g} m   y {y:g} m"))]
-        wide = surface.get_width() >= ROOMY * layout.ui
-        if wide and self.tool_name != "select" and not self.panel.focused:
+        if self.tool_name != "select" and not self.panel.focused:
             hints = [("=", "types a place"), *hints]
         size, looks = surface.get_size(), self.looks
         height = round(

@@ -9,6 +9,7 @@ from math import copysign, cos, degrees, hypot, pi, radians, sin
 from typing import NamedTuple
 
 import numpy as np
+import shapely
 
 from mars2d.bodies.props.base import Prop
 from mars2d.bodies.props.rectangles import Box
@@ -16,8 +17,6 @@ from mars2d.core.plane import Point, edges_of
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.item import Item, Motion, angle_of, tidy
-from mars2d.window.editor.marks import measure, stretch
-from mars2d.window.panels.readout import in_both_units
 
 REACH = 9.0
 """The radius in which a handle is hit, points."""
@@ -36,13 +35,11 @@ class Grip(NamedTuple):
     """Something to drag.
 
     to: returns the draft with the pointer dragged to a point [m]; its second argument is whether
-    Shift is held. remark: returns a measure to show beside the pointer, for example ``1.50 m
-    90°``. point: where its handle is, metres. look: of the handle: "ring", "dot" or "square".
-    corner: the index of the corner that it moves, if it moves one.
+    Shift is held. point: where its handle is, metres. look: of the handle: "ring", "dot" or
+    "square". corner: the index of the corner that it moves, if it moves one.
     """
 
     to: Callable[[Point, bool], Draft]
-    remark: Callable[[], str] = str
     point: Point = (0.0, 0.0)
     look: str = ""
     corner: int | None = None
@@ -66,7 +63,7 @@ def ring_of(desk: Desk) -> Ring | None:
     low, high, above = (desk.metres(points) for points in (MIN_RING, MAX_RING, 16.0))
     if body is not None:
         return Ring(body.pose[:2], min(max(body.bound[1] + above, low), high), body.pose[2])
-    xmin, xmax, ymin, ymax = draft.bounds(items)
+    xmin, ymin, xmax, ymax = shapely.total_bounds([draft.shape(item) for item in items])
     points = [p for item in items for p in draft.corners(item) or [draft.place(item)]]
     x, y = np.mean(points, axis=0).tolist()  # stays where it is while they turn about it
     radius = hypot(xmax - xmin, ymax - ymin) / 2
@@ -120,12 +117,8 @@ def _turning(desk: Desk, ring: Ring) -> Grip:
         angle = radians(round(wanted / step) * step) - (ring.heading - zero)
         return draft.moved(items, Motion(angle, ring.center)) if abs(angle) > 1e-12 else draft
 
-    def remark() -> str:
-        body = None if only is None else desk.draft.body(only)
-        return "" if body is None else in_both_units(body.pose[2])
-
     handle = x + ring.radius * cos(ring.heading), y + ring.radius * sin(ring.heading)
-    return Grip(to, remark, handle, "ring")
+    return Grip(to, handle, "ring")
 
 
 def _cornering(desk: Desk, item: Item, number: int, at: Point, *, new: bool = False) -> Grip:
@@ -136,13 +129,7 @@ def _cornering(desk: Desk, item: Item, number: int, at: Point, *, new: bool = Fa
     def to(point: Point, _: bool) -> Draft:
         return draft.changed({item: (*before, desk.snapped(point), *after)})
 
-    def remark() -> str:
-        corners = desk.draft.corners(item)
-        edges = [(k - 1, k)] if k or item.kind != "wall" else []
-        edges += [(k, (k + 1) % len(corners))] if k + 1 < len(corners) or not edges else []
-        return "   ".join(stretch(corners[a], corners[b]) for a, b in edges)
-
-    return Grip(to, remark, at, "dot" if new else "square", k)
+    return Grip(to, at, "dot" if new else "square", k)
 
 
 def _sides(desk: Desk, item: Item) -> list[Grip]:
@@ -156,10 +143,7 @@ def _sides(desk: Desk, item: Item) -> list[Grip]:
         goal = desk.snapped(point)
         return draft.with_members([item], lambda prop: spanned(prop, fixed, goal))
 
-    return [
-        Grip(partial(to, corners[k - 2]), lambda: measure(desk.draft, item), corner, "square")
-        for k, corner in enumerate(corners)
-    ]
+    return [Grip(partial(to, corners[k - 2]), corner, "square") for k, corner in enumerate(corners)]
 
 
 def spanned(prop: Prop, a: Point, b: Point) -> Prop:

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from itertools import pairwise
 from math import degrees, hypot
 
 from mars2d.core.errors import counted
-from mars2d.core.plane import Point, edges_of
+from mars2d.core.plane import Point
 from mars2d.core.scene import Scene, faded
 from mars2d.output.raster.theme import LIGHT
 from mars2d.window.editor.draft import Draft
@@ -62,38 +61,25 @@ def draw_remarks(draft: Draft, idle: Mapping[int, str], scene: Scene) -> None:
 # -- in words -------------------------------------------------------------------------------------
 
 
-def described(draft: Draft, items: tuple[Item, ...]) -> list[str]:
-    """Return lines about items: name, position, size."""
-    if len(items) > 1:
-        return [counted(len(items), "thing")]
-    (item,) = items
-    corners, body, (x, y) = draft.corners(item), draft.body(item), draft.place(item)
-    lines = [draft.name(item)]
+def described(draft: Draft, item: Item) -> list[str]:
+    """Return lines about an item: name, position, heading, size."""
+    (x, y), corners, body = draft.place(item), draft.corners(item), draft.body(item)
+    lines, sides = [draft.name(item), f"x {x:.4g} m   y {y:.4g} m"], None
     if corners:
-        edges = pairwise(corners) if item.kind == "wall" else edges_of(corners)
-        length = sum(hypot(b[0] - a[0], b[1] - a[1]) for a, b in edges)
-        way = "long" if item.kind == "wall" else "round"
-        lines.append(f"{counted(len(corners), 'corner')}, {length:.4g} m {way}")
-    elif draft.starts_at_random(item):
-        lines.append("starts at random, until it is moved")
-    else:
-        lines.append(f"x {x:.4g} m   y {y:.4g} m")
-        lines += [] if body is None else [f"θ {in_both_units(body.pose[2])}"]
+        xmin, ymin, xmax, ymax = draft.shape(item).bounds
+        length = f"{draft.shape(item).length:.4g} m long"
+        sides, lines = (xmax - xmin, ymax - ymin), [lines[0], counted(len(corners), "corner")]
+        sides, lines = (None, [*lines, length]) if item.kind == "wall" else (sides, lines)
+    if body is not None:
+        sides = getattr(draft.things[item], "side_lengths", None)
+        lines.append(f"θ {in_both_units(body.pose[2])}")
+        if draft.starts_at_random(item):
+            lines[1:] = ["starts at random, until it is moved"]
+        elif item.kind == "prop" and body.is_disc:
+            lines.append(f"diameter {2 * body.bound[1]:.4g} m")
+    if sides is not None:
+        lines.append(f"{sides[0]:.4g} m x {sides[1]:.4g} m")
     return [minus(line) for line in lines]
-
-
-def measure(draft: Draft, item: Item) -> str:
-    """Return the heading of a robot, the size of a prop or an outline; "" for other items."""
-    body = draft.body(item)
-    xmin, xmax, ymin, ymax = draft.bounds([item])
-    if item.kind == "robot" and body is not None:
-        return in_both_units(body.pose[2])
-    if body is not None and body.is_disc:
-        return f"diameter {2 * body.bound[1]:.4g} m"
-    if item.kind == "outline":
-        return f"{xmax - xmin:.4g} m x {ymax - ymin:.4g} m"
-    lengths = None if body is None else draft.things[item].side_lengths
-    return "" if lengths is None else "{:.4g} m x {:.4g} m".format(*lengths)
 
 
 def stretch(a: Point, b: Point) -> str:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mars2d.core.description import Description, schema_of
+from mars2d.core.errors import counted
 from mars2d.core.files import file_beside
 from mars2d.core.materials import Coefficient
 from mars2d.core.scene import PALETTE
@@ -86,15 +87,12 @@ class Subject(NamedTuple):
     @property
     def plain(self) -> dict[str, Field]:
         """The fields that all parts have and that can be typed or chosen, by their names."""
-        if not all(map(dataclasses.is_dataclass, self.parts)):
-            return {}
-        known = [{field.name: field for field in dataclasses.fields(part)} for part in self.parts]
+        first = self.parts[0]
         return {
-            name: field
-            for name, field in known[0].items()
-            if name not in ELSEWHERE
-            and all(name in each for each in known)
-            and all(_is_plain(getattr(part, name)) for part in self.parts)
+            field.name: field
+            for field in (dataclasses.fields(first) if dataclasses.is_dataclass(first) else ())
+            if field.name not in ELSEWHERE
+            and all(_is_plain(getattr(part, field.name, ...)) for part in self.parts)
         }
 
     def in_words(self, field: Field) -> str:
@@ -162,8 +160,10 @@ class Properties:
                     for i, want in self.idle(draft).items()
                 ),
             ]  # fmt: skip
-        first, *others = described(draft, items)
-        rows = [Entry(first), *(Entry(line, tone="note") for line in others)]
+        rows = [Entry(counted(len(items), "thing"))]
+        if len(items) == 1:  # without the size of a body, which has rows of its own
+            first, *others = described(draft, items[0])[:3]
+            rows = [Entry(first), *(Entry(line, tone="note") for line in others)]
         rows += [
             Entry(f"Corner {k}", partial(self._touch, k), value=minus(f"{x:.4g}, {y:.4g} m"))
             for k, (x, y) in enumerate(self._desk.corners)

@@ -21,7 +21,7 @@ from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.draft import Draft, seen_from
 from mars2d.window.editor.grips import NOTCH, Grip, grip_at, grips, moving, ring_of, sized
 from mars2d.window.editor.item import Item, Kind, Motion, angle_of, tidy
-from mars2d.window.editor.marks import MARK, PAPER, draw_outline, measure, stretch
+from mars2d.window.editor.marks import MARK, PAPER, described, draw_outline, stretch
 
 CLICK = 5.0
 """A press that moves by less than this is a click, points."""
@@ -94,8 +94,14 @@ class Tool:
 
     @property
     def remark(self) -> str:
-        """A measure to show beside the pointer."""
-        return "" if self.drag is None or not self.moved else self.drag.remark()
+        """What to show beside the pointer: the size, heading or place that the drag changes."""
+        now, before = self.desk.draft, self.desk.history.draft
+        changed = now.new_since(before) if self.drag is not None and self.moved else []
+        if len(changed) != 1:
+            return ""
+        known = described(before, changed[0]) if changed[0] in before.things else []
+        words = (line for line in reversed(described(now, changed[0])) if line not in known)
+        return next(words, "")
 
 
 class Select(Tool):
@@ -214,10 +220,7 @@ class Place(Tool):
         def to(end: Point, shift: bool) -> Draft:
             return draft.added(self._make(desk, start, end if self.moved else start, shift))
 
-        def remark() -> str:
-            return "".join(measure(desk.draft, item) for item in desk.draft.new_since(draft))
-
-        self.begin(Grip(to, remark), point)
+        self.begin(Grip(to), point)
         desk.hold(to, point, shift=shift)
 
     def put(self, x: float, y: float, heading: float | None) -> None:
@@ -226,7 +229,7 @@ class Place(Tool):
         body = draft.body(item)
         if heading is not None and body is not None:
             draft = draft.moved([item], Motion(heading - body.pose[2], (x, y)))
-        self.desk.put_new(draft)
+        self.desk.put(draft, shows=True)
 
     def _added(self, at: Point) -> tuple[Draft, Item]:
         """Return the draft with one more item at a point, and the item."""
@@ -341,7 +344,9 @@ class Chain(Tool):
         """Keep the outline if it has enough corners."""
         corners, self.corners = self.corners, []
         if len(corners) >= self._least:
-            self.desk.put_new(self.desk.draft.added({self._item: self._make(tuple(corners))}))
+            self.desk.put(
+                self.desk.draft.added({self._item: self._make(tuple(corners))}), shows=True
+            )
         return bool(corners)
 
     def back(self) -> bool:
@@ -401,8 +406,7 @@ class Tie(Tool):
         super().__init__(desk)
         self._kind, self._items, self._done = kind, items, done
         self._pins = issubclass(kind, Hinge)
-        to = "the pin goes through" if self._pins else "it is tied to"
-        self.hint = f"Click the body that {to}, or the floor; or type = and its name"
+        self.hint = f"{kind.__name__}: click a body or the floor"
 
     def press(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
         """Tie the bodies to the item at a point [m]."""
