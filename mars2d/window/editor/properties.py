@@ -54,8 +54,8 @@ AUTOMATIC = "automatic"
 NO_LAW = "none: it stands still"
 GIVEN = 0.5
 """The value of a sensor's number that has no default."""
-LONG = 20
-"""The number of letters from which on a value stands below its title."""
+ROOM = 25
+"""How many letters of a title and its value stand in one line; longer values stand below it."""
 
 
 class Subject(NamedTuple):
@@ -201,7 +201,7 @@ class Properties:
         rows = [self._part("Law", title, laws, self._laws(robots))]
         wants = [idle[item.number] for item in robots if item.number in idle]
         if wants:
-            rows.append(Entry(f"stands still: it lacks {wants[0]}", level=1, tone="warning"))
+            rows.append(Entry(f"stands still, lacks {wants[0]}", level=1, tone="warning"))
         title = _alike([type(drive).__name__ for drive in drives.parts])
         give = lambda kind: drives.change(partial(_driven, kind))  # noqa: E731
         rows.append(
@@ -249,8 +249,8 @@ class Properties:
         )
         entries = others or [Entry("Remove it", partial(subject.change, lambda _: None))]
         entries = [*entries, *[Entry("Fields")] * bool(fields), *fields]
-        act, more = partial(self._open, title, entries), minus(", ".join(words))
-        return Entry(title, act, value=value, more=more, level=not others)
+        act = partial(self._open, title, entries)
+        return _row(title, act, value, *map(minus, words), level=not others)
 
     def _fields(self, subject: Subject, but: Sequence[str] = ()) -> list[Entry]:
         """Return a row for each field that can be typed or chosen."""
@@ -258,9 +258,7 @@ class Properties:
         for name, field in subject.plain.items():
             if name not in but:
                 words, ask = subject.in_words(field), partial(self._ask, subject, name)
-                short = len(words) < LONG
-                value, more = (words, "") if short else ("", words)
-                rows.append(Entry(_title(name).capitalize(), ask, value=value, more=more))
+                rows.append(_row(_title(name).capitalize(), ask, words))
         return rows
 
     # -- asking ---------------------------------------------------------------------------------
@@ -348,6 +346,13 @@ class Properties:
 
         doc = "a file of Python and a function in it, such as walk.py:walk"
         self._dialogs.ask("Law =", Answer("apply", take), text="", doc=doc)
+
+
+def _row(title: str, act: Callable[[], object], value: str, *more: str, level: int = 0) -> Entry:
+    """Return a row with its value beside it, or below where both are long; more: words below."""
+    if len(title) + len(value) + 3 * level > ROOM:
+        value, more = "", (value, *more)
+    return Entry(title, act, value=value, more=", ".join(more), level=level)
 
 
 def _driven(kind: type[Description], drive: Description) -> Description:
