@@ -121,7 +121,7 @@ def test_a_body_that_is_moved_starts_there_and_no_longer_at_random():
     moved = draft.moved([red], Motion(by=(3 - x, 3 - y)))
     assert (draft.starts_at_random(red), moved.starts_at_random(red)) == (True, False)
     assert moved.scenario().started(seed=9).robots[0].pose[:2] == (3, 3)
-    assert moved.scenario().started(seed=9).robots[1].pose != moved.robots[1].pose
+    assert moved.scenario().started(seed=9).robots[1].pose != moved.base.robots[1].pose
     assert moved.without([blue]).scenario().random_starts == ()
 
 
@@ -140,8 +140,8 @@ def test_a_new_name_holds_wherever_the_body_is_mentioned():
     )
     draft = Draft(scenario)
     draft = renamed(renamed(draft, 0, "Ada"), 1, "Bo")
-    assert [robot.name for robot in draft.robots] == ["Ada", "Bo", "robot2"]
-    assert draft.robots[2].controller.leader == "Ada"
+    assert [robot.name for robot in draft.base.robots] == ["Ada", "Bo", "robot2"]
+    assert draft.base.robots[2].controller.leader == "Ada"
     assert draft.base.joints[0].a == "Bo"
     found = draft.scenario()
     game, estimate = found.addons[-2:]
@@ -157,7 +157,7 @@ def test_things_turn_about_a_point_and_come_back():
     items = draft.items()
     quarter = Motion(pi / 2, (1.0, 2.0), (0.5, -0.5))
     turned = draft.moved(items, quarter)
-    assert turned.robots[0].pose == pytest.approx((3.5, -2.5, pi / 2))
+    assert turned.base.robots[0].pose == pytest.approx((3.5, -2.5, pi / 2))
     assert turned.listed["outline"][0][0] == pytest.approx((2.5, 1.5))
     back = turned.moved(items, Motion(by=(-0.5, 0.5))).moved(items, Motion(-pi / 2, (1.0, 2.0)))
     assert back.scenario() == draft.scenario()

@@ -17,8 +17,6 @@ from mars2d.window.screen.viewpoint import Viewpoint
 
 MIN_GRID_STEP = 9.0
 """The smallest step of the grid on the screen, points."""
-MAX_DRAFTS = 500
-"""The length of the history."""
 NEAR, POINT_RADIUS = 5.0, 4.0
 """A point this far from an item still hits it, and the radius of beacons and waypoints, points of
 the screen."""
@@ -46,9 +44,8 @@ class History:
         """Continue with a draft. Consecutive changes with the same tag are undone as one."""
         if draft == self.draft:
             return
-        end = self._now + (not tag or tag != self._tag)
-        self._drafts = [*self._drafts[:end], draft][-MAX_DRAFTS:]
-        self._now, self._tag = len(self._drafts) - 1, tag
+        self._now += not tag or tag != self._tag
+        self._drafts, self._tag = [*self._drafts[: self._now], draft], tag
 
     def has(self, by: int) -> bool:
         """Return whether there is a change to redo, or for a number below 0 to undo."""
@@ -70,8 +67,8 @@ class Desk:
     """The draft with everything that tools need.
 
     selection: the selected items, in the order of selection. corner: the index of the last touched
-    corner, if one outline alone is selected. snaps: whether points snap to the grid. notice: a text
-    for the footer; warns: whether it is a warning.
+    corner, if one outline alone is selected. snaps: whether points snap to the grid. shift: whether
+    Shift is held. notice: a text for the footer; warns: whether it is a warning.
     """
 
     def __init__(self, draft: Draft, viewpoint: Viewpoint) -> None:
@@ -80,7 +77,7 @@ class Desk:
         self.selection: tuple[Item, ...] = ()
         self.corner: int | None = None
         self.viewpoint = viewpoint
-        self.snaps = True
+        self.snaps, self.shift = True, False
         self.notice = ""
         self.warns = False
         self._held: Draft | None = None
@@ -98,12 +95,12 @@ class Desk:
         self.history.put(draft, tag)
         self._see(before if shows else draft)
 
-    def hold(self, to: Callable[[Point, bool], Draft], point: Point, *, shift: bool) -> None:
+    def hold(self, to: Callable[[Point], Draft], point: Point) -> None:
         """Show the draft of a drag to a point; an InputError is shown, and it stays as it was."""
         if self.warns:
             self.say("")
         try:
-            self._held = to(point, shift)
+            self._held = to(point)
         except InputError as error:
             self.say(str(error), warns=True)
 

@@ -48,12 +48,6 @@ class Draft:
 
     base: Scenario
 
-    @classmethod
-    def empty(cls, scenario: Scenario) -> Self:
-        """Return the draft of a scenario without its robots; no scenario can be empty."""
-        draft = cls(scenario)
-        return draft.without([item for item in draft.items() if item.kind == "robot"])
-
     def scenario(self) -> Scenario:
         """Return the scenario. Raises InputError if it is not valid."""
         return self.base.replace()
@@ -62,7 +56,9 @@ class Draft:
     def sketch(self) -> Scenario:
         """The scenario for drawing, unchecked. Never simulate it."""
         shown = self.with_base(animation=self.base.animation.replace(show_initial_pose=False)).base
-        if self.base.workspace is None and not (self.robots or self.props or shown.obstacles):
+        if self.base.workspace is None and not (
+            self.base.robots or self.base.props or shown.obstacles
+        ):
             return self.with_base(workspace=BLANK).base
         return shown
 
@@ -79,22 +75,12 @@ class Draft:
 
     def frame(self) -> Frame:
         """Return the instant before the start."""
-        pose = np.array([robot.pose for robot in self.robots], dtype=float).reshape(-1, 3).T
-        prop_pose = np.array([prop.pose for prop in self.props], dtype=float).reshape(-1, 3).T
-        nothing = np.empty((0, 3, len(self.robots)))
+        pose = np.array([robot.pose for robot in self.base.robots], dtype=float).reshape(-1, 3).T
+        prop_pose = np.array([prop.pose for prop in self.base.props], dtype=float).reshape(-1, 3).T
+        nothing = np.empty((0, 3, len(self.base.robots)))
         return Frame(self.sketch, 0.0, 0, pose, nothing, prop_pose=prop_pose)
 
     # -- its items ------------------------------------------------------------------------------
-
-    @property
-    def robots(self) -> tuple[Robot, ...]:
-        """The robots."""
-        return tuple(self.base.robots)
-
-    @property
-    def props(self) -> tuple[Prop, ...]:
-        """The props."""
-        return tuple(self.base.props)
 
     @cached_property
     def listed(self) -> dict[Kind, tuple[Any, ...]]:
@@ -106,8 +92,8 @@ class Draft:
             "workspace": () if base.workspace is None else (base.workspace,),
             "outline": tuple(getattr(chart, "outlines", ())),
             "wall": tuple(getattr(chart, "walls", ())),
-            "prop": self.props,
-            "robot": self.robots,
+            "prop": tuple(base.props),
+            "robot": tuple(base.robots),
             "beacon": tuple(addon for addon in base.addons if isinstance(addon, Beacon)),
             "waypoint": (*routes, *[()] * (len(base.robots) - len(routes))),
             "joint": tuple(base.joints),
@@ -143,7 +129,7 @@ class Draft:
     def name(self, item: Item) -> str:
         """Return an item's name in words."""
         if item.kind == "waypoint":
-            return f"waypoint {item.part} of {self.robots[item.number].name}"
+            return f"waypoint {item.part} of {self.base.robots[item.number].name}"
         words = {"workspace": "the workspace", "outline": f"obstacle {item.number}"}
         if item.kind in CORNERED:
             return words.get(item.kind, f"wall {item.number}")
@@ -201,7 +187,7 @@ class Draft:
 
     def _lots(self) -> list[tuple[RandomStarts, Sequence[str]]]:
         """Return the random starts with the names of their bodies."""
-        robots = [str(robot.name) for robot in self.robots]
+        robots = [str(robot.name) for robot in self.base.robots]
         return [(each, each.bodies or robots) for each in self.base.random_starts]
 
     # -- changes --------------------------------------------------------------------------------
@@ -285,7 +271,7 @@ class Draft:
         return self.with_base(joints=tuple(map(pinned, self.base.joints)))
 
     def _members(self) -> tuple[Robot | Prop, ...]:
-        return (*self.robots, *self.props)
+        return (*self.base.robots, *self.base.props)
 
     def with_members(self, items: Collection[Item], change: Callable[[Any], Robot | Prop]) -> Self:
         """Return the draft with robots or props changed, each by a function of itself.

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import partial
 from math import radians
 from pathlib import Path
 from typing import Any
@@ -24,7 +23,6 @@ from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.dialogs import Dialogs
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.grips import NOTCH, ring_of
-from mars2d.window.editor.header import Header
 from mars2d.window.editor.item import Item, Motion
 from mars2d.window.editor.marks import draw_marks, draw_remarks, minus
 from mars2d.window.editor.properties import Properties
@@ -42,6 +40,8 @@ from mars2d.window.widgets.slider import draw_tooltip
 NUDGES = {"←": (-1, 0), "→": (1, 0), "↑": (0, 1), "↓": (0, -1)}
 HEADER = ("undo", "redo", "start", "now", "save", "run")
 """The actions with buttons in the header, where they are offered."""
+BUTTONS = 0.5
+"""The share of the header in which buttons begin; the rest is for the title."""
 WIDTH, SIDE = 58.0, 46.0
 """The widths of the toolbar and of its buttons, points."""
 TALL, MAX_SHARE, NARROW = 560.0, 0.11, 96.0
@@ -82,7 +82,9 @@ class Editor:
         self.looks, self.live = looks, live
         painter = self.painter = looks.painter
         self.help = Help()
-        draft = Draft.empty(scenario) if empty else Draft(scenario)
+        draft = Draft(scenario)
+        if empty:  # no scenario can be without robots
+            draft = draft.without([item for item in draft.items() if item.kind == "robot"])
         self.viewpoint = Viewpoint(draft.sketch, self._laid_out((1280, 720)))
         self.desk = Desk(draft, self.viewpoint)
         if changed:
@@ -97,7 +99,7 @@ class Editor:
         self._pointer = (-1, -1)
         self._dragging = self._panning = False
         self._held: set[int] = set()
-        self.names = len(draft.robots) + len(draft.props) <= MAX_NAMED
+        self.names = len(draft.base.robots) + len(draft.base.props) <= MAX_NAMED
         self._plain = False  # whether only the add-ons that can be edited are drawn
         self.tool_name, self.tool = "", Tool(self.desk)
         self.choose("select")
@@ -106,12 +108,19 @@ class Editor:
         tools = [self.groups["Tools"], [self._actions["snap"]]]
         self._toolbar = Buttons(tools, side=SIDE, lettered=True)
         in_header = [self._actions[name] for name in HEADER if name in self._actions]
-        self._header = Header([in_header])
+        self._header = Buttons([in_header])
 
     @property
     def title(self) -> str:
         """The text of the header."""
         return self.desk.draft.base.title if self.live else self.dialogs.name
+
+    @property
+    def note(self) -> str:
+        """What is to be said of the title."""
+        if self.live:
+            return "the run is paused"
+        return "not saved yet" if self.desk.history.changed else "new" * self.dialogs.new
 
     @property
     def layout(self) -> Layout:
@@ -134,6 +143,7 @@ class Editor:
             self.desk.say(str(error), warns=True)
 
     def _take(self, event: pygame.Event) -> None:
+        self.desk.shift = not self._held.isdisjoint((pygame.K_LSHIFT, pygame.K_RSHIFT))
         if self.menu.handle(event):
             pass
         elif event.type == pygame.KEYDOWN:
@@ -192,35 +202,28 @@ class Editor:
             self.panel.handle(event)
         elif self._toolbar.handle(event) or self._header.handle(event):
             pass
-        elif event.button == pygame.BUTTON_LEFT and self.layout.plot.collidepoint(event.pos):
-            self._press_left(event.pos)
-        elif event.button == pygame.BUTTON_MIDDLE:
+        elif event.button == pygame.BUTTON_MIDDLE or pygame.K_SPACE in self._held:
             self._panning = True
+        elif event.button == pygame.BUTTON_LEFT and self.layout.plot.collidepoint(event.pos):
+            self._dragging, self.panel.focused = True, False
+            self.tool.press(self._world(event.pos))
         elif event.button == pygame.BUTTON_RIGHT and not self.tool.confirm():
             self.tool.cancel()
-
-    def _press_left(self, pixel: tuple[int, int]) -> None:
-        if pygame.K_SPACE in self._held:
-            self._panning = True
-            return
-        self._dragging, self.panel.focused = True, False
-        self.tool.press(self._world(pixel), shift=self._shift)
 
     def _move(self, event: pygame.Event) -> None:
         self._pointer = event.pos
         if self._panning:
             self.viewpoint.pan(*event.rel)
         elif self._dragging or self.layout.plot.collidepoint(event.pos):
-            self.tool.move(self._world(event.pos), shift=self._shift)
+            self.tool.move(self._world(event.pos))
         else:
             self.tool.pointer = None
 
     def _release(self, event: pygame.Event) -> None:
-        if self._panning and event.button in (pygame.BUTTON_LEFT, pygame.BUTTON_MIDDLE):
-            self._panning = False
-        elif self._dragging and event.button == pygame.BUTTON_LEFT:
+        self._panning = False
+        if self._dragging and event.button == pygame.BUTTON_LEFT:
             self._dragging = False
-            self.tool.release(self._world(event.pos), shift=self._shift)
+            self.tool.release()
 
     def _let_go(self) -> None:
         """Cancel the drag."""
@@ -231,10 +234,6 @@ class Editor:
     def _world(self, pixel: tuple[int, int]) -> Point:
         ((x, y),) = self.desk.camera.to_world([pixel]).tolist()
         return x, y
-
-    @property
-    def _shift(self) -> bool:
-        return not self._held.isdisjoint((pygame.K_LSHIFT, pygame.K_RSHIFT))
 
     # -- tools and changes ----------------------------------------------------------------------
 
@@ -360,7 +359,7 @@ class Editor:
         self._draw_tools(surface, side)
         right = pygame.Rect(plot.right, plot.top, surface.get_width() - plot.right, plot.height)
         self.panel.draw(surface, right, self.painter)
-        self._header.draw_bar(surface, bar, self.painter, self.title, self._note(), self._pointer)
+        self._draw_header(surface)
         self._draw_foot(surface)
         if self.tool.remark:
             x, y = (each + round(16 * self.layout.ui) for each in self._pointer)
@@ -369,6 +368,38 @@ class Editor:
             self._toolbar.draw_tip(surface, self.painter, self._pointer)
         self.menu.draw(surface, surface.get_rect(), self.painter)
         self.help.draw(surface, self.layout, self.painter, self.groups.items())
+
+    def _draw_header(self, surface: pygame.Surface) -> None:
+        """Draw the title, what is to be said of it, and buttons at the right as far as they fit."""
+        painter, theme, ui = self.painter, self.painter.theme, self.painter.ui
+        bar, fonts, pad = self.layout.header, painter.fonts, round(20 * ui)
+        surface.fill(theme.bar, bar)
+        surface.fill(theme.edge, (bar.left, bar.bottom - 1, bar.width, 1))
+        right, places, note = bar.right - pad, self._header.places, self.note
+        places.clear()
+        for name in reversed([name for name in HEADER if name in self._actions]):
+            action = self._actions[name]
+            if right < (1 - BUTTONS) * bar.width:
+                break  # the keys have all of them
+            first, works = action.lit, action.works
+            color = theme.running.ink if first else theme.text if works else theme.key_edge
+            wide = fonts.width(action.title, 15 * ui, bold=first) + 22 * ui
+            place = places[name] = pygame.Rect(0, 0, round(wide), round(32 * ui))
+            place.midright = (right, bar.centery)
+            hover = works and place.collidepoint(self._pointer)
+            fill = theme.running.pale if first or hover else theme.key
+            painter.panel(surface, place, fill, 7 * ui, theme.selected if hover else theme.key_edge)
+            painter.write(surface, action.title, 15 * ui, color, bold=first, center=place.center)
+            right = place.left - round(8 * ui)
+        room = right - 2 * pad - fonts.width(note, 14 * ui) - 12 * ui
+        title, at = (
+            fonts.shorten(self.title, 20 * ui, room, bold=True),
+            (bar.left + pad, bar.centery),
+        )
+        place = painter.write(surface, title, 20 * ui, theme.ink, bold=True, midleft=at)
+        if room > 0:
+            beside = (place.right + 12 * ui, bar.centery + 2 * ui)
+            painter.write(surface, note, 14 * ui, theme.muted, midleft=beside)
 
     def _draw_tools(self, surface: pygame.Surface, side: pygame.Rect) -> None:
         """Draw the buttons of the tools, and the step of the grid below them."""
@@ -392,22 +423,23 @@ class Editor:
         if self.names:
             draw_remarks(draft, self.properties.idle(draft), scene)
         layers, hurried = LAYERS.switched(names=self.names), self.viewpoint.hurried
-        draw = partial(self._stage.draw, marks=scene.shapes, hurried=hurried)
         try:
-            draw(surface, frame, camera, layers, plot)
+            self._stage.draw(
+                surface, frame, camera, layers, plot, marks=scene.shapes, hurried=hurried
+            )
         except Mars2dError as error:  # raised by another add-on's drawing
             if self._plain:
                 raise
             self._plain = True
             self.desk.say(f"Other add-ons are not drawn: {error}", warns=True)
-            draw(surface, draft.bare.frame(), camera, layers, plot)
+            self._draw_plot(surface)
 
     def _draw_foot(self, surface: pygame.Surface) -> None:
         """Draw what to do, or over the foot of the drawing a message of any length."""
         desk, verdict, layout = self.desk, self.verdict, self.layout
         text = PANEL_HINT if self.panel.focused else self.tool.hint
         banner = Banner(desk.notice, error=desk.warns) if desk.notice else None
-        if banner is None and verdict.text and desk.draft.robots:
+        if banner is None and verdict.text and desk.draft.base.robots:
             banner = Banner(verdict.text, error=True)
         elif verdict.text and self.tool_name == "select":
             text = verdict.text[:1].upper() + verdict.text[1:]
@@ -418,15 +450,7 @@ class Editor:
         if self.tool_name != "select" and not self.panel.focused:
             hints = [("=", "types a place"), *hints]
         size, looks = surface.get_size(), self.looks
-        height = round(
-            footer_height(banner, size, self.painter, looks.text, looks.scale) * layout.ui
-        )
+        points = footer_height(banner, size, self.painter, looks.text, looks.scale)
+        height = round(points * layout.ui)
         bar = pygame.Rect(0, layout.footer.bottom - height, size[0], height)
         draw_footer(surface, replace(layout, footer=bar), self.painter, banner, text, hints)
-
-    def _note(self) -> str:
-        if self.live:
-            return "the run is paused"
-        if self.desk.history.changed:
-            return "not saved yet"
-        return "new" if self.dialogs.new else ""

@@ -34,12 +34,12 @@ MIN_SIDE = 0.01
 class Grip(NamedTuple):
     """Something to drag.
 
-    to: returns the draft with the pointer dragged to a point [m]; its second argument is whether
-    Shift is held. point: where its handle is, metres. look: of the handle: "ring", "dot" or
-    "square". corner: the index of the corner that it moves, if it moves one.
+    to: returns the draft with the pointer dragged to a point [m]. point: where its handle is,
+    metres. look: of the handle: "ring", "dot" or "square". corner: the index of the corner that it
+    moves, if it moves one.
     """
 
-    to: Callable[[Point, bool], Draft]
+    to: Callable[[Point], Draft]
     point: Point = (0.0, 0.0)
     look: str = ""
     corner: int | None = None
@@ -98,7 +98,7 @@ def moving(desk: Desk, grabbed: Item, start: Point) -> Grip:
     """Move the selection; the grabbed item's own point snaps to the grid."""
     draft, items, (x, y) = desk.draft, desk.selection, desk.draft.place(grabbed)
 
-    def to(point: Point, _: bool) -> Draft:
+    def to(point: Point) -> Draft:
         goal = desk.snapped((x + point[0] - start[0], y + point[1] - start[1]))
         return draft.moved(items, Motion(by=(goal[0] - x, goal[1] - y)))
 
@@ -111,8 +111,8 @@ def _turning(desk: Desk, ring: Ring) -> Grip:
     one = only is not None and draft.body(only) is not None
     zero = 0.0 if one else ring.heading  # from where notches are counted
 
-    def to(point: Point, shift: bool) -> Draft:
-        step = NOTCH if shift else 1.0 if desk.snaps else 0.1
+    def to(point: Point) -> Draft:
+        step = NOTCH if desk.shift else 1.0 if desk.snaps else 0.1
         wanted = degrees(angle_of(ring.center, point) - zero)
         angle = radians(round(wanted / step) * step) - (ring.heading - zero)
         return draft.moved(items, Motion(angle, ring.center)) if abs(angle) > 1e-12 else draft
@@ -126,7 +126,7 @@ def _cornering(desk: Desk, item: Item, number: int, at: Point, *, new: bool = Fa
     draft, k = desk.draft, number + new
     before, after = draft.corners(item)[:k], draft.corners(item)[number + 1 :]
 
-    def to(point: Point, _: bool) -> Draft:
+    def to(point: Point) -> Draft:
         return draft.changed({item: (*before, desk.snapped(point), *after)})
 
     return Grip(to, at, "dot" if new else "square", k)
@@ -139,7 +139,7 @@ def _sides(desk: Desk, item: Item) -> list[Grip]:
         return []
     ((corners, _),) = draft.rims(item)
 
-    def to(fixed: Point, point: Point, _: bool) -> Draft:
+    def to(fixed: Point, point: Point) -> Draft:
         goal = desk.snapped(point)
         return draft.with_members([item], lambda prop: spanned(prop, fixed, goal))
 

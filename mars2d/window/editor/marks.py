@@ -48,7 +48,7 @@ def draw_marks(
 
 def draw_remarks(draft: Draft, idle: Mapping[int, str], scene: Scene) -> None:
     """Write below each robot what it lacks to be moved, and whether it starts at random."""
-    for i, robot in enumerate(draft.robots):
+    for i, robot in enumerate(draft.base.robots):
         words = ["at random"] if draft.starts_at_random(Item("robot", i)) else []
         if i in idle:
             words.append("no law" if idle[i] == "a law" else f"lacks {idle[i]}")

@@ -155,7 +155,7 @@ class Properties:
                 Entry("The scenario"),
                 *self._fields(self._scenario()),
                 *(
-                    Entry(f"{draft.robots[i].name} lacks {want}",
+                    Entry(f"{draft.base.robots[i].name} lacks {want}",
                           partial(select, [Item("robot", i)]), tone="warning")
                     for i, want in self.idle(draft).items()
                 ),
@@ -288,7 +288,7 @@ class Properties:
 
     def _choices(self, field: Field) -> Sequence[Any]:
         """Return the values that a field may have, if they are few."""
-        robots = self._desk.draft.robots
+        robots = self._desk.draft.base.robots
         chosen = {item.number for item in self._desk.selection if item.kind == "robot"}
         mentions = field.metadata.get("names")
         if mentions == "robot" and schema_of(field).get("type") == "string":
@@ -331,7 +331,7 @@ class Properties:
         if kind is FollowWaypoints and self.idle(self._desk.draft).get(robots[0].number):
             self._editor.choose("waypoint")
             self._desk.say("click its waypoints, one after the other")
-        elif kind is FollowRobot and len(self._desk.draft.robots) > len(robots):
+        elif kind is FollowRobot and len(self._desk.draft.base.robots) > len(robots):
             self._ask(self._members(robots).part("controller"), "leader")
         elif needs:
             self._desk.say(f"it goes by its sensor {needs}")

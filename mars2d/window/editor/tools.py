@@ -49,22 +49,22 @@ class Tool:
         self.moved = False
         self._pressed: Point = (0.0, 0.0)
 
-    def press(self, point: Point, *, shift: bool) -> None:
+    def press(self, point: Point) -> None:
         """Press the left button."""
 
     def begin(self, drag: Grip, point: Point) -> None:
         """Begin a drag."""
         self.drag, self._pressed, self.moved = drag, point, False
 
-    def move(self, point: Point, *, shift: bool) -> None:
+    def move(self, point: Point) -> None:
         """Move the mouse, with or without the button."""
         self.pointer = point
         if self.drag is not None:
             self.moved = self.moved or not self.desk.near(self._pressed, point, CLICK)
             if self.moved:
-                self.desk.hold(self.drag.to, point, shift=shift)
+                self.desk.hold(self.drag.to, point)
 
-    def release(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
+    def release(self) -> None:
         """Release the button: keep the changes of the drag, and select what is new."""
         drag, self.drag, self.moved = self.drag, None, False
         self.desk.settle()
@@ -73,7 +73,7 @@ class Tool:
 
     def put(self, x: float, y: float, heading: float | None) -> None:  # noqa: ARG002
         """Act like a click at a typed point; heading: radians, None if none was typed."""
-        self.press((x, y), shift=False)
+        self.press((x, y))
 
     def confirm(self) -> bool:
         """Handle Enter and the right button; return whether there was anything to do."""
@@ -127,7 +127,7 @@ class Select(Tool):
         by = x - place[0], y - place[1]
         desk.put(draft.moved(desk.selection, Motion(angle, place, by)))
 
-    def press(self, point: Point, *, shift: bool) -> None:
+    def press(self, point: Point) -> None:
         """Begin to drag a handle, an item, or a rectangle round items."""
         desk, self._clicked = self.desk, None
         grip, item = grip_at(desk, point), desk.item_at(point)
@@ -135,15 +135,15 @@ class Select(Tool):
             self.begin(grip, point)
             if grip.look == "dot":
                 self.moved = True  # a mere click on a dot adds the corner, too
-                desk.hold(grip.to, grip.point, shift=False)
+                desk.hold(grip.to, grip.point)
             desk.corner = grip.corner
             return
         if item is None:
-            self._kept = desk.selection if shift else ()
+            self._kept = desk.selection if desk.shift else ()
             desk.select(self._kept)
             self._band = point, point
             return
-        if shift:
+        if desk.shift:
             others = tuple(other for other in desk.selection if other != item)
             desk.select(others if item in desk.selection else (*others, item))
         elif item not in desk.selection:
@@ -154,17 +154,17 @@ class Select(Tool):
         if item in desk.selection:
             self.begin(moving(desk, item, point), point)
 
-    def move(self, point: Point, *, shift: bool) -> None:
+    def move(self, point: Point) -> None:
         """Drag the handle or item, or select the items within the rectangle."""
-        super().move(point, shift=shift)
+        super().move(point)
         if self._band is not None:
             self._band = self._band[0], point
             self.desk.select([*self._kept, *self.desk.items_within(*self._band)])
 
-    def release(self, point: Point, *, shift: bool) -> None:
+    def release(self) -> None:
         """End the drag; a click on one of several selected items selects it alone."""
-        alone = self._clicked if not self.moved and not shift else None
-        super().release(point, shift=shift)
+        alone = self._clicked if not self.moved and not self.desk.shift else None
+        super().release()
         if alone is not None and len(self.desk.selection) > 1:
             self.desk.select([alone])
         self._band = self._clicked = None
@@ -205,23 +205,23 @@ Made = dict[Item, Any]
 class Place(Tool):
     """Places items.
 
-    make: returns what a drag makes, given the desk, both ends of the drag, and Shift.
+    make: returns what a drag makes, given the desk and both ends of the drag.
     """
 
-    def __init__(self, desk: Desk, make: Callable[[Desk, Point, Point, bool], Made]) -> None:
+    def __init__(self, desk: Desk, make: Callable[[Desk, Point, Point], Made]) -> None:
         """Start with nothing pressed."""
         super().__init__(desk)
         self._make = make
 
-    def press(self, point: Point, *, shift: bool) -> None:
+    def press(self, point: Point) -> None:
         """Place an item."""
         desk, start, draft = self.desk, self.desk.snapped(point), self.desk.draft
 
-        def to(end: Point, shift: bool) -> Draft:
-            return draft.added(self._make(desk, start, end if self.moved else start, shift))
+        def to(end: Point) -> Draft:
+            return draft.added(self._make(desk, start, end if self.moved else start))
 
         self.begin(Grip(to), point)
-        desk.hold(to, point, shift=shift)
+        desk.hold(to, point)
 
     def put(self, x: float, y: float, heading: float | None) -> None:
         """Place an item at a typed point."""
@@ -233,7 +233,7 @@ class Place(Tool):
 
     def _added(self, at: Point) -> tuple[Draft, Item]:
         """Return the draft with one more item at a point, and the item."""
-        draft = self.desk.draft.added(self._make(self.desk, at, at, False))
+        draft = self.desk.draft.added(self._make(self.desk, at, at))
         (item,) = draft.things.keys() - self.desk.draft.things.keys()
         return draft, item
 
@@ -247,42 +247,42 @@ class Place(Tool):
 class PlaceWaypoint(Place):
     """Places waypoints, each at the end of a robot's route."""
 
-    def press(self, point: Point, *, shift: bool) -> None:
+    def press(self, point: Point) -> None:
         """Place a waypoint, or choose another robot."""
         under = self.desk.item_at(point)
         if under is not None and under.kind == "robot":
             self.desk.select([under])
         else:
-            super().press(point, shift=shift)
+            super().press(point)
 
     def draw(self, scene: Scene) -> None:
         """Draw a ring round the robot whose route it is."""
         super().draw(scene)
-        for robot in self.desk.draft.robots[_walker(self.desk) :][:1]:
+        for robot in self.desk.draft.base.robots[_walker(self.desk) :][:1]:
             center, radius = robot.rigid.bound
             scene.circle(center, radius, stroke=MARK, width=2.0, pixels=7.0)
 
 
-def robot(desk: Desk, start: Point, end: Point, shift: bool) -> Made:
+def robot(desk: Desk, start: Point, end: Point) -> Made:
     """Make a robot that heads towards the pointer, like the selected one, or the last one."""
     draft = desk.history.draft
     chosen = [draft.things[item] for item in desk.selection if item.kind == "robot"]
-    (*_, model) = chosen or (Robot(), *draft.robots)
+    (*_, model) = chosen or (Robot(), *draft.base.robots)
     heading = model.pose[2]
     if end != start:
-        step = NOTCH if shift else 1.0
+        step = NOTCH if desk.shift else 1.0
         heading = tidy(radians(round(degrees(angle_of(start, end)) / step) * step))
     return {Item("robot"): model.replace(pose=(*start, heading))}
 
 
-def prop(kind: type[Prop], desk: Desk, start: Point, end: Point, _: bool) -> Made:
+def prop(kind: type[Prop], desk: Desk, start: Point, end: Point) -> Made:
     """Make a prop of a kind that is as large as the drag."""
     corner = desk.snapped(end)
     drawn = start not in (end, corner)
     return {Item("prop"): sized(kind(), start, corner) if drawn else kind().at(*start)}
 
 
-def block(desk: Desk, start: Point, end: Point, _: bool) -> Made:
+def block(desk: Desk, start: Point, end: Point) -> Made:
     """Make a rectangular obstacle between two corners, or a square about a point."""
     (x, y), half = start, SQUARE / 2
     corners = [start, desk.snapped(end)]
@@ -291,14 +291,14 @@ def block(desk: Desk, start: Point, end: Point, _: bool) -> Made:
     return {Item("outline"): rectangle(*bounds_of(corners))}
 
 
-def beacon(desk: Desk, start: Point, end: Point, _: bool) -> Made:
+def beacon(desk: Desk, start: Point, end: Point) -> Made:
     """Make a beacon at the pointer."""
     return {Item("beacon"): Beacon(at=start if start == end else desk.snapped(end))}
 
 
-def waypoint(desk: Desk, start: Point, end: Point, _: bool) -> Made:
+def waypoint(desk: Desk, start: Point, end: Point) -> Made:
     """Make a waypoint at the pointer."""
-    if not desk.draft.robots:
+    if not desk.draft.base.robots:
         raise InputError("waypoints belong to a robot: place one first (R)")
     place = start if start == end else desk.snapped(end)
     return {Item("waypoint", _walker(desk)): place}
@@ -326,7 +326,7 @@ class Chain(Tool):
         self._item, self._make, self._closed = Item(kind), make, kind != "wall"
         self._least = 3 if self._closed else 2
 
-    def press(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
+    def press(self, point: Point) -> None:
         """Add a corner; close a polygon at the first one."""
         first, at = self.corners[:1], self.desk.snapped(point)
         there = [at] == first or any(self.desk.near(each, point, CLOSE) for each in first)
@@ -408,7 +408,7 @@ class Tie(Tool):
         self._pins = issubclass(kind, Hinge)
         self.hint = f"{kind.__name__}: click a body or the floor"
 
-    def press(self, point: Point, *, shift: bool) -> None:  # noqa: ARG002
+    def press(self, point: Point) -> None:
         """Tie the bodies to the item at a point [m]."""
         desk, draft = self.desk, self.desk.draft
         at, other = desk.snapped(point), desk.item_at(point, self._items)

@@ -33,7 +33,7 @@ class Verdict(NamedTuple):
 
 def judge(draft: Draft) -> Verdict:
     """Return the verdict on a draft: the Scenario itself decides whether it is valid."""
-    if not draft.robots:
+    if not draft.base.robots:
         return Verdict(None, "there is no robot yet: choose Robot (R) and click")
     scenario, text = None, ""
     try:
