@@ -240,7 +240,7 @@ def of_editor(editor):
         "chosen": (editor.menu if editor.menu.is_open else editor.panel).chosen,
         "focused": editor.panel.focused,
         "step": desk.step,
-        "changed": desk.history.changed,
+        "changed": desk.changed,
         "corners": len(getattr(editor.tool, "corners", ())),
         "scale": round(desk.camera.scale, 3),
         "origin": [round(desk.camera.x, 2), round(desk.camera.y, 2)],

@@ -268,15 +268,15 @@ def test_without_a_mouse_areas_are_drawn_their_corners_changed_and_bodies_tied(o
     typed(hands, "0 1", "2 1")
     hands.press("Escape", "Tab", "Tab", "Tab", "shift+Tab")
     hands.until(lambda s: s["selection"] == [["robot", 0, 0], ["robot", 1, 0]])
-    for place in ("0 2", "robot1"):
+    for place in ("0.123 2", "robot1"):
         hands.press("F2", "j", "Return", "r", "o", "p", "Return")
         hands.until(lambda s: s["tool"] == "tie")
         typed(hands, place)
         hands.press("Escape", "Tab", "Tab", "Tab")
-    assert [joint[:3] for joint in hands.state["joints"]] == [
-        ["Rope", "robot0", None],
-        ["Rope", "robot1", None],
-        ["Rope", "robot0", "robot1"],
+    assert hands.state["joints"] == [
+        ["Rope", "robot0", None, [0.123, 2]],
+        ["Rope", "robot1", None, [0.123, 2]],
+        ["Rope", "robot0", "robot1", [0, 0]],
     ]
 
 

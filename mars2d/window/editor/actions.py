@@ -55,7 +55,7 @@ SNAP = "M4 8h16M4 16h16M8 4v16M16 4v16"
 def actions_of(editor: Editor) -> dict[str, tuple[Action, ...]]:
     """Return all that can be done in an editor, in the groups of the help."""
     desk, dialogs, looks = editor.desk, editor.dialogs, editor.looks.actions
-    history, fit, zoom = desk.history, editor.viewpoint.fit, editor.zoom
+    fit, zoom = editor.viewpoint.fit, editor.zoom
 
     def key(
         name: str, keys: str, words: str, act: Callable[[], object] | None = None,
@@ -63,12 +63,6 @@ def actions_of(editor: Editor) -> dict[str, tuple[Action, ...]]:
     ) -> Action:  # fmt: skip
         labels = ("←", "→", "↑", "↓") if keys == "arrows" else (keys,)
         return Action(name, words, labels, act, also, **more)
-
-    def button(
-        name: str, keys: str, words: str, act: Callable[[], object], icon: str,
-        on: Callable[[], bool],
-    ) -> Action:  # fmt: skip
-        return key(name, keys, words, act, title=name.capitalize(), icon=icon, on=on)
 
     def chosen(name: str) -> bool:
         return name == editor.tool_name
@@ -84,15 +78,16 @@ def actions_of(editor: Editor) -> dict[str, tuple[Action, ...]]:
     )  # fmt: skip
     file = (
         key("save", "Ctrl S", "save as a scenario file (TOML)", dialogs.save,
-            title="Save", on=lambda: history.changed),
+            title="Save", on=lambda: desk.changed),
         key("leave", "Ctrl Q", "leave; asks first if something would be lost", dialogs.leave,
             "Ctrl W"),
     )  # fmt: skip
     run = key("run", "F5", "save and run; closing the run returns here", dialogs.run, "Ctrl R",
-              title="Run", on=lambda: not history.changed)  # fmt: skip
+              title="Run", on=lambda: not desk.changed)  # fmt: skip
     return {
         "Tools": tuple(
-            button(name, letter, words, partial(editor.choose, name), icon, partial(chosen, name))
+            key(name, letter, words, partial(editor.choose, name), title=name.capitalize(),
+                icon=icon, on=partial(chosen, name))
             for name, letter, words, _, icon in TOOLS
         ),
         "Change": (
@@ -112,13 +107,13 @@ def actions_of(editor: Editor) -> dict[str, tuple[Action, ...]]:
             key("properties", "F2", "choose a property to change",
                 partial(setattr, editor.panel, "focused", True)),
             key("undo", "Ctrl Z", "undo", editor.undo,
-                title="Undo", when=lambda: history.has(-1), repeats=True),
+                title="Undo", when=lambda: desk.has(-1), repeats=True),
             key("redo", "Ctrl Y", "redo", partial(desk.go, 1), "Ctrl Shift Z",
-                title="Redo", when=lambda: history.has(1), repeats=True),
+                title="Redo", when=lambda: desk.has(1), repeats=True),
         ),
         "Look": (
-            button("snap", "G", "snap to the grid on and off", partial(switch, desk, "snaps"),
-                   SNAP, lambda: desk.snaps),
+            key("snap", "G", "snap to the grid on and off", partial(switch, desk, "snaps"),
+                title="Snap", icon=SNAP, on=lambda: desk.snaps),
             key("names", "I", "names on and off", partial(switch, editor, "names")),
             key("fit", "F", "fit the workspace into the window", lambda: fit(desk.draft.sketch)),
             key("nearer", "Ctrl +", "zoom in", partial(zoom, 2.0), "Ctrl =", "Ctrl [+]"),

@@ -22,77 +22,57 @@ NEAR, POINT_RADIUS = 5.0, 4.0
 the screen."""
 
 
-class History:
-    """The drafts so far: those to undo, the present one, those to redo; saved: that of the file."""
+class Desk:
+    """The draft with everything that tools need; the drafts so far, to undo and to redo.
 
-    def __init__(self, draft: Draft) -> None:
-        """Start with a draft that counts as saved."""
+    saved: the draft of the file. selection: the selected items, in the order of selection. corner:
+    the index of the last touched corner, if one outline alone is selected. snaps: whether points
+    snap to the grid. shift: whether Shift is held. notice: a text for the footer; warns: whether it
+    is a warning.
+    """
+
+    def __init__(self, draft: Draft, viewpoint: Viewpoint) -> None:
+        """Start with nothing selected, and with a draft that counts as saved."""
         self.saved: Draft | None = draft
         self._drafts, self._now, self._tag = [draft], 0, ""
+        self._held: Draft | None = None
+        self.selection: tuple[Item, ...] = ()
+        self.corner: int | None = None
+        self.viewpoint = viewpoint
+        self.snaps, self.shift = True, False
+        self.notice, self.warns = "", False
+
+    # -- the draft --------------------------------------------------------------------------------
 
     @property
-    def draft(self) -> Draft:
-        """The present draft."""
+    def settled(self) -> Draft:
+        """The present draft; in the middle of a drag, that of before."""
         return self._drafts[self._now]
 
     @property
+    def draft(self) -> Draft:
+        """The present draft, also in the middle of a drag."""
+        return self.settled if self._held is None else self._held
+
+    @property
     def changed(self) -> bool:
-        """Whether the present draft differs from the saved one."""
-        return self.draft is not self.saved and self.draft != self.saved
-
-    def put(self, draft: Draft, tag: str = "") -> None:
-        """Continue with a draft. Consecutive changes with the same tag are undone as one."""
-        if draft == self.draft:
-            return
-        self._now += not tag or tag != self._tag
-        self._drafts, self._tag = [*self._drafts[: self._now], draft], tag
-
-    def has(self, by: int) -> bool:
-        """Return whether there is a change to redo, or for a number below 0 to undo."""
-        return 0 <= self._now + by < len(self._drafts)
-
-    def go(self, by: int) -> bool:
-        """Redo a change, or undo one for a number below 0; return whether there was one."""
-        moves = self.has(by)
-        self._now, self._tag = self._now + by * moves, ""
-        return moves
+        """Whether the draft differs from the saved one."""
+        return self.settled is not self.saved and self.settled != self.saved
 
     def save(self, saved: Draft) -> None:
         """Count the present draft as saved; saved: it, with the title that it has got."""
         self._drafts[self._now] = self.saved = saved
         self._tag = ""
 
-
-class Desk:
-    """The draft with everything that tools need.
-
-    selection: the selected items, in the order of selection. corner: the index of the last touched
-    corner, if one outline alone is selected. snaps: whether points snap to the grid. shift: whether
-    Shift is held. notice: a text for the footer; warns: whether it is a warning.
-    """
-
-    def __init__(self, draft: Draft, viewpoint: Viewpoint) -> None:
-        """Start with nothing selected."""
-        self.history = History(draft)
-        self.selection: tuple[Item, ...] = ()
-        self.corner: int | None = None
-        self.viewpoint = viewpoint
-        self.snaps, self.shift = True, False
-        self.notice = ""
-        self.warns = False
-        self._held: Draft | None = None
-
-    # -- the draft --------------------------------------------------------------------------------
-
-    @property
-    def draft(self) -> Draft:
-        """The present draft, also in the middle of a drag."""
-        return self.history.draft if self._held is None else self._held
-
     def put(self, draft: Draft, tag: str = "", *, shows: bool = False) -> None:
-        """Continue with a draft; tag: as for `History.put`. shows: select what is new in it."""
-        before, self._held = self.history.draft, None
-        self.history.put(draft, tag)
+        """Continue with a draft. Consecutive changes with the same tag are undone as one.
+
+        shows: select what is new in it.
+        """
+        before, self._held = self.settled, None
+        if draft != before:
+            self._now += not tag or tag != self._tag
+            self._drafts, self._tag = [*self._drafts[: self._now], draft], tag
         self._see(before if shows else draft)
 
     def hold(self, to: Callable[[Point], Draft], point: Point) -> None:
@@ -115,10 +95,18 @@ class Desk:
         self._see(self.draft)
         return held is not None
 
+    def has(self, by: int) -> bool:
+        """Return whether there is a change to redo, or for a number below 0 to undo."""
+        return 0 <= self._now + by < len(self._drafts)
+
     def go(self, by: int) -> None:
         """Redo a change, or for a number below 0 undo one, if only that of a drag."""
-        before = self.draft
-        if not (self.drop() and by < 0) and not self.history.go(by):
+        before, self._tag = self.draft, ""
+        if self.drop() and by < 0:
+            pass
+        elif self.has(by):
+            self._now += by
+        else:
             self.say(f"there is nothing to {'redo' if by > 0 else 'undo'}")
         self._see(before)
 

@@ -111,7 +111,7 @@ class Dialogs(Prompts):
         missing = toml_file.save_scenario(scenario, path, self.control)
         self.path, self._wanted, self.new = path, path, False
         if self._before is None:
-            self._desk.history.save(self._desk.draft.with_base(title=scenario.title))
+            self._desk.save(self._desk.draft.with_base(title=scenario.title))
         without = f", without what is code: {', '.join(missing)}" if missing else ""
         self._desk.say(f"Saved {path}{without}")
         then()
@@ -122,13 +122,14 @@ class Dialogs(Prompts):
         The last valid draft is saved, beside the own file or in the temporary folder. Return the
         file; None if there is nothing to save.
         """
-        history = self._desk.history
-        if self._before is not None or not history.changed:
+        desk = self._desk
+        if self._before is not None or not desk.changed:
             return None
-        self._desk.drop()
-        while (scenario := history.draft.verdict.scenario) is None:
-            if not history.go(-1):
+        desk.drop()
+        while (scenario := desk.draft.verdict.scenario) is None:
+            if not desk.has(-1):
                 return None
+            desk.go(-1)
         for folder in (self._wanted.parent, Path(tempfile.gettempdir())):
             with suppress(InputError):
                 path = free_name(folder, f"{self._wanted.stem}_unsaved", toml_file.SUFFIX)
@@ -140,7 +141,7 @@ class Dialogs(Prompts):
 
     def run(self) -> None:
         """Ask for a run of the file; save it first if need be."""
-        if self._desk.history.changed or self.new:
+        if self._desk.changed or self.new:
             self.save(then=self.run)
         else:
             self.to_run = self.path
@@ -161,7 +162,7 @@ class Dialogs(Prompts):
     def leave(self) -> None:
         """Leave; ask first if work would be lost."""
         discard = Answer("discard", lambda _: self._discard(), "Backspace")
-        if not self._desk.history.changed:
+        if not self._desk.changed:
             self._discard()
         elif self._before is not None:
             now = Answer("from now", lambda _: self.apply("now"))

@@ -88,7 +88,7 @@ class Editor:
         self.viewpoint = Viewpoint(draft.sketch, self._laid_out((1280, 720)))
         self.desk = Desk(draft, self.viewpoint)
         if changed:
-            self.desk.history.saved = None
+            self.desk.saved = None
         self.menu, self.panel = Menu(), Menu(docked=True)
         self.dialogs = Dialogs(
             self.desk, self.menu, lambda: self.tool.confirm(),  # noqa: PLW0108
@@ -120,7 +120,7 @@ class Editor:
         """What is to be said of the title."""
         if self.live:
             return "the run is paused"
-        return "not saved yet" if self.desk.history.changed else "new" * self.dialogs.new
+        return "not saved yet" if self.desk.changed else "new" * self.dialogs.new
 
     @property
     def layout(self) -> Layout:
@@ -131,7 +131,7 @@ class Editor:
     def verdict(self) -> Verdict:
         """The verdict on the drawing; in the middle of a drag, that of before."""
         desk = self.desk
-        return (desk.history.draft if self._dragging else desk.draft).verdict
+        return (desk.settled if self._dragging else desk.draft).verdict
 
     # -- events ---------------------------------------------------------------------------------
 

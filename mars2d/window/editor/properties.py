@@ -197,7 +197,13 @@ class Properties:
     def _rows_of_robots(self, robots: Items) -> list[Entry]:
         whole, idle = self._members(robots), self.idle(self._desk.draft)
         laws, drives = whole.part("controller"), whole.part("drive")
-        title = _alike([self._title_of(law) for law in laws.parts])
+        without = "that of the team" if self._dialogs.control is not None else NO_LAW
+        title = _alike(
+            [
+                law.title if isinstance(law, Controller) else name_of(law) if law else without
+                for law in laws.parts
+            ]
+        )
         rows = [self._part("Law", title, laws, self._laws(robots))]
         wants = [idle[item.number] for item in robots if item.number in idle]
         if wants:
@@ -215,14 +221,6 @@ class Properties:
                 subject = self._sensors(robots, sensor.key)
                 rows.append(self._part(sensor.key, type(sensor).__name__, subject))
         return rows
-
-    def _title_of(self, law: object) -> str:
-        """Return a law in words."""
-        if isinstance(law, Controller):
-            return law.title
-        if callable(law):
-            return name_of(law)
-        return "that of the team" if self._dialogs.control is not None else NO_LAW
 
     def _rows_of_joints(self, bodies: Items) -> list[Entry]:
         kinds, draft = _listed(members("joints"), partial(self._tie, bodies)), self._desk.draft

@@ -71,9 +71,8 @@ class Tool:
         if drag is not None and drag.corner is not None and self.desk.only is not None:
             self.desk.corner = drag.corner
 
-    def put(self, x: float, y: float, heading: float | None) -> None:  # noqa: ARG002
+    def put(self, x: float, y: float, heading: float | None) -> None:
         """Act like a click at a typed point; heading: radians, None if none was typed."""
-        self.press((x, y))
 
     def confirm(self) -> bool:
         """Handle Enter and the right button; return whether there was anything to do."""
@@ -95,7 +94,7 @@ class Tool:
     @property
     def remark(self) -> str:
         """What to show beside the pointer: the size, heading or place that the drag changes."""
-        now, before = self.desk.draft, self.desk.history.draft
+        now, before = self.desk.draft, self.desk.settled
         changed = now.new_since(before) if self.drag is not None and self.moved else []
         if len(changed) != 1:
             return ""
@@ -114,8 +113,6 @@ class Select(Tool):
     def put(self, x: float, y: float, heading: float | None) -> None:
         """Put the selection at a point: its corner, a body's pose, or an outline's first corner."""
         desk, draft = self.desk, self.desk.draft
-        if not desk.selection:
-            raise InputError("nothing is selected")
         held = desk.selection[0]
         body, place = draft.body(held), draft.place(held)
         if heading is not None and (body is None or desk.only is None):
@@ -265,7 +262,7 @@ class PlaceWaypoint(Place):
 
 def robot(desk: Desk, start: Point, end: Point) -> Made:
     """Make a robot that heads towards the pointer, like the selected one, or the last one."""
-    draft = desk.history.draft
+    draft = desk.settled
     chosen = [draft.things[item] for item in desk.selection if item.kind == "robot"]
     (*_, model) = chosen or (Robot(), *draft.base.robots)
     heading = model.pose[2]
@@ -409,9 +406,16 @@ class Tie(Tool):
         self.hint = f"{kind.__name__}: click a body or the floor"
 
     def press(self, point: Point) -> None:
-        """Tie the bodies to the item at a point [m]."""
+        """Tie the bodies to the item at a point [m]; a pin snaps to the grid."""
+        self._tie(point, self.desk.snapped(point))
+
+    def put(self, x: float, y: float, heading: float | None) -> None:  # noqa: ARG002
+        """Tie the bodies to the item at a typed point."""
+        self._tie((x, y), (x, y))
+
+    def _tie(self, point: Point, at: Point) -> None:
         desk, draft = self.desk, self.desk.draft
-        at, other = desk.snapped(point), desk.item_at(point, self._items)
+        other = desk.item_at(point, self._items)
         body = None if other is None else draft.body(other)
         ends: dict[str, Any] = {"b": None if body is None else body.name}
         if body is None or self._pins:
