@@ -173,8 +173,7 @@ class Desk:
             return
         least = 2 if item.kind == "wall" or len(corners) == 2 else 3
         if len(corners) == least:
-            self.say(f"{self.draft.name(item)} needs {least} corners", warns=True)
-            return
+            raise InputError(f"{self.draft.name(item)} needs {least} corners")
         self.corner = None
         self.put(self.draft.with_corner(item, number))
 

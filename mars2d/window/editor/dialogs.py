@@ -74,12 +74,12 @@ class Dialogs(Prompts):
         others = (self._wanted.with_stem(f"{self._wanted.stem}_{k}") for k in count(2))
         return str(next(path for path in chain([self._wanted], others) if not path.exists()))
 
-    def _valid(self, doing: str) -> Scenario | None:
-        """Return the scenario; show why there is none if the draft is not valid."""
+    def _valid(self, doing: str) -> Scenario:
+        """Return the scenario. Raises InputError if the draft is not valid."""
         self._complete()
         verdict = self._desk.draft.verdict
         if verdict.scenario is None:
-            self._desk.say(f"{doing}: {verdict.text}", warns=True)
+            raise InputError(f"{doing}: {verdict.text}")
         return verdict.scenario
 
     # -- save -----------------------------------------------------------------------------------
@@ -87,8 +87,6 @@ class Dialogs(Prompts):
     def save(self, then: Then = lambda: None) -> None:
         """Save the draft, ask for a name first if there is none; then: called after saving."""
         scenario = self._valid("Not saved")
-        if scenario is None:
-            return
         if self.path is None:
             answer = Answer("save", lambda text: self._save_new(scenario, _named(text), then))
             self.ask("Save as", answer, text=self.proposal, doc="a scenario file, in TOML")
@@ -149,14 +147,11 @@ class Dialogs(Prompts):
     def apply(self, when: Literal["now", "start"]) -> None:
         """Leave, and continue the paused run with the draft."""
         scenario = self._valid("Not yet")
-        if scenario is None or self._before is None:
-            return
-        if when == "now":
+        if when == "now" and self._before is not None:
             try:
                 check_same(self._before, scenario)
             except InputError as error:
-                self._desk.say(f"{error} (Shift+Enter)", warns=True)
-                return
+                raise InputError(f"{error} (Shift+Enter)") from None
         self.outcome, self.done = Outcome(scenario, when), True
 
     def leave(self) -> None:

@@ -274,18 +274,16 @@ class Editor:
     def ask_pose(self) -> None:
         """Ask where to put the selection, or a new item."""
         if self.tool_name == "select" and not self.desk.selection:
-            self.desk.say("select something first, or choose a tool that places items", warns=True)
-            return
+            raise InputError("select something first, or choose a tool that places items")
         doc = "such as 1.5 2 90, or the name of a thing that is there"
         self.dialogs.ask("x y [degrees] =", Answer("apply", self._put), text="", doc=doc)
 
     def _put(self, text: str) -> None:
         """Put the selection, or a new item, at typed numbers or where a thing of a name is."""
         draft = self.desk.draft
-        named = (draft.place(item) for item in draft.items() if draft.name(item) == text.strip())
-        place = next(named, None)
-        if place is not None:
-            self.tool.put(*place, None)
+        named = {draft.name(item): draft.place(item) for item in draft.items()}
+        if text.strip() in named:
+            self.tool.put(*named[text.strip()], None)
             return
         try:
             x, y, *rest = map(float, text.replace(",", " ").split())
@@ -298,8 +296,7 @@ class Editor:
         """Turn the selection: 1 is counter-clockwise, -1 clockwise; fine: by one degree."""
         ring, desk = ring_of(self.desk), self.desk
         if ring is None:
-            desk.say("select something that has a direction first", warns=True)
-            return
+            raise InputError("select something that has a direction first")
         motion = Motion(radians(way * (1.0 if fine else NOTCH)), ring.center)
         desk.put(desk.draft.moved(desk.selection, motion), tag="turn")
 

@@ -89,8 +89,8 @@ class Prompts:
                 self._show(prompt, answers)
 
         def entries() -> list[Entry]:
-            tone = "warning" if prompt.error else "note"
-            told = [Entry(prompt.error or prompt.doc, tone=tone)] if prompt.field else []
+            words, tone = prompt.error or prompt.doc, "warning" if prompt.error else "note"
+            told = [Entry(words, tone=tone)] if words else []
             ways = [
                 Entry(each.words, partial(answer, each), each.key, value="Enter" * (not each.key))
                 for each in answers
