@@ -213,9 +213,10 @@ class Draft:
                 found[item.kind].append(_checked(self.name(item), item, value))
             else:
                 found[item.kind].append(value)
-        while routes and not routes[max(routes)]:
-            routes.pop(max(routes))
-        addons = _with_fields(self.base.addons, Waypoints, routes=[*routes.values()])
+        ways = [tuple(route) for route in routes.values()]
+        while ways and not ways[-1]:
+            ways.pop()
+        addons = _with_fields(self.base.addons, Waypoints, routes=ways)
         addons = _with_fields(addons, Map, outlines=found["outline"], walls=found["wall"])
         if tuple(found["beacon"]) != self.listed["beacon"]:
             first = next((k for k, each in enumerate(addons) if isinstance(each, Beacon)), None)
