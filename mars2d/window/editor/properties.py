@@ -198,13 +198,8 @@ class Properties:
         whole, idle = self._members(robots), self.idle(self._desk.draft)
         laws, drives = whole.part("controller"), whole.part("drive")
         without = "that of the team" if self._dialogs.control is not None else NO_LAW
-        title = _alike(
-            [
-                law.title if isinstance(law, Controller) else name_of(law) if law else without
-                for law in laws.parts
-            ]
-        )
-        rows = [self._part("Law", title, laws, self._laws(robots))]
+        titles = [getattr(law, "title", law and name_of(law)) or without for law in laws.parts]
+        rows = [self._part("Law", _alike(titles), laws, self._laws(robots))]
         wants = [idle[item.number] for item in robots if item.number in idle]
         if wants:
             rows.append(Entry(f"stands still, lacks {wants[0]}", level=1, tone="warning"))
@@ -348,7 +343,7 @@ class Properties:
 
 def _row(title: str, act: Callable[[], object], value: str, *more: str, level: int = 0) -> Entry:
     """Return a row with its value beside it, or below where both are long; more: words below."""
-    if len(title) + len(value) + 3 * level > ROOM:
+    if value and len(title) + len(value) + 3 * level > ROOM:
         value, more = "", (value, *more)
     return Entry(title, act, value=value, more=", ".join(more), level=level)
 
