@@ -51,7 +51,8 @@ class Impact(Panel):
         theme = self.painter.theme
         ink = theme.text if label else theme.ink
         words = [Word(minus(each), ink, bold=not label) for each in numbers]
-        return self.table(words, ENDS, [Word(label, theme.muted)])
+        first = 0 if any(numbers[:2]) else 2  # the numbers of both have the line to themselves
+        return self.table(words[first:], ENDS[first:], [Word(label, theme.muted)])
 
     def _cards(self, frame: Frame) -> list[Table]:
         """Return the tables of the touches that began in the control step before a frame."""
