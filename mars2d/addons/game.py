@@ -87,19 +87,19 @@ class Game(Elimination):
     """
 
     capture: str | float | None = entry(
-        default=CONTACT, check=checks.optional(_capture), unit="m",
+        default=CONTACT, check=_capture, optional=True, unit="m",
         doc="what catches an evader; None: nothing",
     )  # fmt: skip
     goal: Outline | None = entry(
-        default=None, check=checks.optional(checks.outline, 3), unit="m",
+        default=None, check=checks.polygon, optional=True, unit="m",
         doc="the polygon that the evaders must reach; None: they must stay free",
     )  # fmt: skip
     home: Outline | None = entry(
-        default=None, check=checks.optional(checks.outline, 3), unit="m",
+        default=None, check=checks.polygon, optional=True, unit="m",
         doc="the polygon that evaders carry the flag to, from the goal; None: they need not",
     )  # fmt: skip
     hunted: tuple[str | int, ...] | None = entry(
-        default=None, check=checks.optional(robots_of),
+        default=None, check=robots_of, optional=True,
         doc="the robots to catch, if not those of the second role",
         names="robot",
     )  # fmt: skip

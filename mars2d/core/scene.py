@@ -71,12 +71,6 @@ def color(name: str, value: object) -> str:
     raise InputError(f"{name} = {value!r}: expected a colour, '#rrggbb' or a name{hint}")
 
 
-@accepts(_COLOR)
-def optional_color(name: str, value: object) -> str | None:
-    """Check a colour, or None."""
-    return None if value is None else color(name, value)
-
-
 @lru_cache(maxsize=1024)
 def _checked(name: str, value: str) -> str:
     return color(name, value)

@@ -26,7 +26,7 @@ class Gate(Prop):
     thickness: float = number(default=0.06, low=1e-3, high=1e3, unit="m", doc="its thickness")
     ground_friction = 0.0
     limits: tuple[float, float] | None = entry(
-        default=(-pi / 2, pi / 2), check=turning_limits, unit="rad",
+        default=(-pi / 2, pi / 2), check=turning_limits, optional=True, unit="rad",
         doc="its range of rotation; None: unbounded",
     )  # fmt: skip
     limit_restitution: float = number(
