@@ -24,7 +24,7 @@ from mars2d.core.materials import (
     surface_restitution,
 )
 from mars2d.core.scene import color
-from mars2d.geometry.shapes import Shape
+from mars2d.geometry.shapes import Shape, rectangle
 
 MAX_SPEED = 100.0
 """The highest speed at the start, m/s and rad/s; higher ones need ever more substeps."""
@@ -106,8 +106,10 @@ class Prop(Description):
 
     @cached_property
     def shape(self) -> Shape:
-        """Its shape, the centre of mass at the origin."""
-        raise NotImplementedError(f"{type(self).__name__} must say what shape it has")
+        """Its shape, the centre of mass at the origin; that of a rectangle by its `sides`."""
+        if self.side_lengths is None:
+            raise NotImplementedError(f"{type(self).__name__} must say what shape it has")
+        return rectangle(*self.side_lengths)
 
     @property
     def side_lengths(self) -> tuple[float, float] | None:
