@@ -77,12 +77,8 @@ class SonarRing(Scanner):
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw each cone as far as it is free, and an arc where it ends at something."""
         x, y, theta = self.placed(pose).tolist()
-        steps = np.linspace(-self.cone / 2, self.cone / 2, max(2, int(self.cone / 0.1) + 2))
         for angle, distance in zip(theta + self.angles, np.asarray(reading).tolist(), strict=True):
             far = min(distance, self.range)
             scene.sector((x, y, angle), far, self.cone, fill=faded(color, 0.1))
             if distance <= self.range:
-                arc = angle + steps
-                c, s = cosines_sines(arc)
-                ends = np.column_stack([x + far * c, y + far * s])
-                scene.line(ends, stroke=faded(color, 0.9), width=2.0)
+                scene.arc((x, y, angle), far, self.cone, stroke=faded(color, 0.9), width=2.0)
