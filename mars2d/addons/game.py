@@ -28,7 +28,7 @@ from mars2d.addons.contest import (
 )  # fmt: skip
 from mars2d.core import checks
 from mars2d.core.arithmetic import ROUNDING, norms
-from mars2d.core.description import accepts, entry, flag, integer, number, real, wrong
+from mars2d.core.description import accepts, bounded, entry, flag, integer, number, wrong
 from mars2d.core.errors import InputError, counted, likely
 from mars2d.core.interfaces import FrameLike, ScenarioLike, WorldLike
 from mars2d.core.plane import Outline, edges_of, outside_polygon
@@ -54,10 +54,7 @@ def _capture(name: str, value: object) -> str | float:
         if value not in (CONTACT, SIGHT):
             raise wrong(name, value, expected + likely(value, [CONTACT, SIGHT]))
         return value
-    distance = real(name, value, expected)
-    if distance <= 0:
-        raise wrong(name, value, expected)
-    return distance
+    return float(bounded(expected, above=0)(name, value))
 
 
 class Game(Elimination):

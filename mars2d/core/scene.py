@@ -272,18 +272,14 @@ class Scene:
             self.circle(pose, radius, **look)
             return
         tip = np.asarray(pose, dtype=float)[:2]
-        self.polygon(np.vstack([tip, _arc(pose, radius, angle)]), **look)
-
-    def arc(self, pose: ArrayLike, radius: float, angle: float, **look: Any) -> None:
-        """Add the arc of a sector as a line."""
-        self.line(_arc(pose, radius, angle), **look)
+        self.polygon(np.vstack([tip, arc(pose, radius, angle)]), **look)
 
     def extend(self, shapes: Iterable[Shape]) -> None:
         """Add the shapes of another scene."""
         self.shapes.extend(shapes)
 
 
-def _arc(pose: ArrayLike, radius: float, angle: float) -> NDArray[np.float64]:
+def arc(pose: ArrayLike, radius: float, angle: float) -> NDArray[np.float64]:
     """Return points (k, 2) of an arc about the heading of a pose (3,)."""
     x, y, theta = np.asarray(pose, dtype=float).tolist()
     steps = theta + np.linspace(-angle / 2, angle / 2, max(2, int(angle / 0.1) + 2))

@@ -15,7 +15,7 @@ from mars2d.core.description import integer, number
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.plane import WITHIN
 from mars2d.core.quantity import FLAG, Quantity
-from mars2d.core.scene import Scene, faded
+from mars2d.core.scene import Scene, arc, faded
 from mars2d.sensors.base import Float, Sensor, sight_angle
 from mars2d.sensors.surroundings import Surroundings
 
@@ -94,4 +94,5 @@ class Bumper(Sensor):
         width = 0.92 * self.field_of_view / self.sectors  # a gap parts it from the next
         for angle, touched in zip(theta + self.angles, np.asarray(reading).tolist(), strict=True):
             stroke, thick = (LIT, 4.0) if touched else (faded(color, 0.45), 1.5)
-            scene.arc((x, y, angle), 1.15 * self.radius, width, stroke=stroke, width=thick)
+            points = arc((x, y, angle), 1.15 * self.radius, width)
+            scene.line(points, stroke=stroke, width=thick)

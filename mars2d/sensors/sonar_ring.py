@@ -13,7 +13,7 @@ from mars2d.core.arithmetic import cosine_sine, cosines_sines, norms
 from mars2d.core.description import integer, number
 from mars2d.core.plane import WITHIN, Point, up_to
 from mars2d.core.quantity import DISTANCE, Quantity
-from mars2d.core.scene import Scene, faded
+from mars2d.core.scene import Scene, arc, faded
 from mars2d.geometry.bearings import beam_angles
 from mars2d.sensors.base import Fan, Float, Scanner, sight_angle
 from mars2d.sensors.surroundings import Surroundings
@@ -81,4 +81,4 @@ class SonarRing(Scanner):
             far = min(distance, self.range)
             scene.sector((x, y, angle), far, self.cone, fill=faded(color, 0.1))
             if distance <= self.range:
-                scene.arc((x, y, angle), far, self.cone, stroke=faded(color, 0.9), width=2.0)
+                scene.line(arc((x, y, angle), far, self.cone), stroke=faded(color, 0.9), width=2.0)
