@@ -5,7 +5,6 @@ python docs/make/fields.py
 
 from __future__ import annotations
 
-import contextlib
 import dataclasses
 import re
 from math import pi
@@ -96,6 +95,7 @@ SHORT = {
     "a number": "",
     "the name of a file that ends in .png": "",
     "a Drive, such as Unicycle()": "",
+    "one of " + ", ".join(map(repr, MATERIALS)): "",
 }
 """What a field accepts, where its unit, its default and its meaning say most of it."""
 
@@ -184,10 +184,8 @@ def accepts(kind: type[Description], field: dataclasses.Field[Any]) -> str:
         raise AssertionError(f"{name} accepts anything")
     if field.default is None:
         expected = expected.removesuffix(", or None")
-    else:
-        with contextlib.suppress(InputError):
-            if check(name, None) is None and "None" not in expected:
-                expected += ", or None"
+    elif field.metadata["optional"] and "None" not in expected:
+        expected += ", or None"
     expected = SHORT.get(expected, expected).replace(f" [{field.metadata['unit']}]", "")
     expected = expected.replace("a list, ", "").replace(" in metres", "")
     expected = re.sub(r"a whole number from 1 to \d{4,}", "a whole number", expected)

@@ -39,7 +39,10 @@ class Addon(Stateful):
     """
 
     name: str | None = entry(
-        default=None, check=checks.identifier("world.addons."), doc="the name in world.addons"
+        default=None,
+        check=checks.identifier("world.addons."),
+        optional=True,
+        doc="the name in world.addons",
     )
 
     friction: float = entry(

@@ -30,13 +30,14 @@ class Beacon(Addon):
 
     at: Point | None = entry(
         default=None,
-        check=checks.optional(checks.point),
+        check=checks.point,
+        optional=True,
         unit="m",
         kw_only=False,
         doc="its position",
     )
     path: Outline | None = entry(
-        default=None, check=checks.optional(checks.line), unit="m", doc="the corners of its path"
+        default=None, check=checks.line, optional=True, unit="m", doc="the corners of its path"
     )
     speed: float | None = number(
         default=None, above=0, high=1e3, unit="m/s", optional=True, doc="its speed along the path"

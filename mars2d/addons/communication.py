@@ -6,7 +6,7 @@ import numpy as np
 
 from mars2d.addons.base import Addon
 from mars2d.core.arithmetic import decay
-from mars2d.core.checks import instance, optional
+from mars2d.core.checks import instance
 from mars2d.core.description import Description, entry, flag, number
 from mars2d.core.errors import InputError
 
@@ -62,9 +62,6 @@ class Burst(Description):
         return bool(rng.random() < (self.loss_bad if bad else self.loss_good))
 
 
-_burst = optional(instance(Burst, "Burst(good=2, bad=0.4)"))
-
-
 class Communication(Addon):
     """Lets robots send messages to each other, over a channel that may be bad.
 
@@ -96,8 +93,9 @@ class Communication(Addon):
         default=0.0, low=0, high=1, doc="probability that a receiver never gets a message"
     )
     burst: Burst | None = entry(
-        default=None, check=_burst, doc="losses in bursts, in place of `loss`; None: none"
-    )
+        default=None, check=instance(Burst, "Burst(good=2, bad=0.4)"), optional=True,
+        doc="losses in bursts, in place of `loss`; None: none",
+    )  # fmt: skip
     bandwidth: float | None = number(
         default=None, low=1, high=1e12, unit="bytes/s", optional=True,
         doc="how fast a robot sends; None: at once",

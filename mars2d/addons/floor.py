@@ -65,9 +65,9 @@ class Floor(Addon):
     channel and up to 4096 x 4096 pixels.
     """
 
-    image: str | None = entry(default=None, check=image_file, doc="a PNG file")
+    image: str | None = entry(default=None, check=image_file, optional=True, doc="a PNG file")
     bounds: Bounds | None = entry(
-        default=None, check=image_bounds, unit="m",
+        default=None, check=image_bounds, optional=True, unit="m",
         doc="the area of the image",
     )  # fmt: skip
     patches: Sequence[tuple[Outline, str]] = entry(
@@ -75,7 +75,8 @@ class Floor(Addon):
     )
     color: str | None = entry(
         default=None,
-        check=checks.optional(_opaque),
+        check=_opaque,
+        optional=True,
         doc="the colour of the rest; None: transparent",
     )
 

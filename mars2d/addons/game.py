@@ -28,7 +28,7 @@ from mars2d.addons.contest import (
 )  # fmt: skip
 from mars2d.core import checks
 from mars2d.core.arithmetic import ROUNDING, norms
-from mars2d.core.description import accepts, entry, flag, integer, number, real, wrong
+from mars2d.core.description import accepts, bounded, entry, flag, integer, number, wrong
 from mars2d.core.errors import InputError, counted, likely
 from mars2d.core.interfaces import FrameLike, ScenarioLike, WorldLike
 from mars2d.core.plane import Outline, edges_of, outside_polygon
@@ -54,10 +54,7 @@ def _capture(name: str, value: object) -> str | float:
         if value not in (CONTACT, SIGHT):
             raise wrong(name, value, expected + likely(value, [CONTACT, SIGHT]))
         return value
-    distance = real(name, value, expected)
-    if distance <= 0:
-        raise wrong(name, value, expected)
-    return distance
+    return float(bounded(expected, above=0)(name, value))
 
 
 class Game(Elimination):
@@ -87,19 +84,19 @@ class Game(Elimination):
     """
 
     capture: str | float | None = entry(
-        default=CONTACT, check=checks.optional(_capture), unit="m",
+        default=CONTACT, check=_capture, optional=True, unit="m",
         doc="what catches an evader; None: nothing",
     )  # fmt: skip
     goal: Outline | None = entry(
-        default=None, check=checks.optional(checks.polygon), unit="m",
+        default=None, check=checks.polygon, optional=True, unit="m",
         doc="the polygon that the evaders must reach; None: they must stay free",
     )  # fmt: skip
     home: Outline | None = entry(
-        default=None, check=checks.optional(checks.polygon), unit="m",
+        default=None, check=checks.polygon, optional=True, unit="m",
         doc="the polygon that evaders carry the flag to, from the goal; None: they need not",
     )  # fmt: skip
     hunted: tuple[str | int, ...] | None = entry(
-        default=None, check=checks.optional(robots_of),
+        default=None, check=robots_of, optional=True,
         doc="the robots to catch, if not those of the second role",
         names="robot",
     )  # fmt: skip

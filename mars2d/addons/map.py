@@ -8,7 +8,7 @@ from itertools import pairwise
 from pathlib import Path
 
 from mars2d.addons.base import Addon
-from mars2d.core.checks import optional, outlines, polylines
+from mars2d.core.checks import outlines, polylines
 from mars2d.core.description import entry, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.files import file_beside
@@ -33,7 +33,7 @@ class Map(Addon):
     """
 
     outlines: Sequence[Outline] = entry(
-        default=None, check=optional(outlines), unit="m", kw_only=False,
+        default=None, check=outlines, optional=True, unit="m", kw_only=False,
         doc="the obstacles",
     )  # fmt: skip
     walls: Sequence[Outline] = entry(

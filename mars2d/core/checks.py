@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import keyword
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from itertools import islice, pairwise
 from types import GeneratorType
 from typing import Any
@@ -102,6 +102,12 @@ def outline(name: str, value: object, least: int = 2, *, closed: bool = True) ->
 
 
 @accepts(OUTLINE)
+def polygon(name: str, value: object) -> Outline:
+    """Check the outline of an area: three vertices or more."""
+    return outline(name, value, least=3)
+
+
+@accepts(OUTLINE)
 def line(name: str, value: object) -> Outline:
     """Check an open line of two or more vertices, which may cross itself."""
     return outline(name, value, closed=False)
@@ -126,12 +132,6 @@ def _check_ring(name: str, points: list[Point]) -> None:
         raise wrong(name, points, "a polygon with an area; its vertices lie on one line")
 
 
-@accepts(OUTLINE | {"minItems": 3})
-def polygon(name: str, value: object) -> Outline:
-    """Check a closed polygon of three or more vertices."""
-    return outline(name, value, 3)
-
-
 @accepts({"type": "array", "items": OUTLINE})
 def polylines(name: str, value: object) -> tuple[Outline, ...]:
     """Check a list of open lines, each of two or more vertices."""
@@ -151,16 +151,6 @@ def lists_of(name: str, value: object, what: str) -> list[tuple[str, Any]]:
     if isinstance(first, (tuple, list, np.ndarray)) and len(first) and np.ndim(first[0]) == 0:
         raise wrong(name, value, f"a list of {what}: put one more pair of brackets round it")
     return [(f"{name}[{i}]", item) for i, item in enumerate(items)]
-
-
-def optional(check: Callable[..., Any], *arguments: Any) -> Check:
-    """Return a check that keeps None, and calls `check(name, value, *arguments)` otherwise."""
-
-    @accepts(vars(check).get("schema", {}))
-    def checked(name: str, value: object) -> Any:
-        return None if value is None else check(name, value, *arguments)
-
-    return checked
 
 
 def instance(kind: type, example: str) -> Check:
@@ -193,12 +183,10 @@ def listing(kind: type, example: str) -> Check:
 
 
 def names(expected: str, least: int = 1) -> Check:
-    """Return a check for a list of at least so many different names, or None."""
+    """Return a check for a list of at least so many different names."""
 
     @accepts({"type": "array", "items": {"type": "string"}, "minItems": least, "uniqueItems": True})
-    def check(name: str, value: object) -> tuple[str, ...] | None:
-        if value is None:
-            return None if least else ()
+    def check(name: str, value: object) -> tuple[str, ...]:
         if not isinstance(value, (tuple, list)) or len(value) < least:
             raise wrong(name, value, expected)
         for item in value:
@@ -264,13 +252,11 @@ NAME = r"[^\x00-@\[-`{-\u007f][^\x00-/:-@\[-^`{-\u007f]*"
 
 
 def identifier(prefix: str) -> Check:
-    """Return a check for a part's name, which follows the `prefix` in the code of laws, or None."""
+    """Return a check for a part's name, which follows the `prefix` in the code of laws."""
     expected = f"letters, digits and _, a letter first, as it follows {prefix}"
 
     @accepts({"type": "string", "pattern": f"^{NAME}$"})
-    def check(name: str, value: object) -> str | None:
-        if value is None:
-            return None
+    def check(name: str, value: object) -> str:
         known = isinstance(value, str) and value.isidentifier() and not keyword.iskeyword(value)
         if not known or str(value).startswith("_"):
             raise wrong(name, value, expected)

@@ -64,21 +64,37 @@ def real(name: str, value: object, expected: str = "a number") -> float:
     return result
 
 
+def bounded(
+    expected: str, low: float | None = None, above: float | None = None, high: float | None = None
+) -> Check:
+    """Return a check for a finite number: ``low <= value``, ``above < value <= high``."""
+    limits = {"minimum": low, "exclusiveMinimum": above, "maximum": high}
+
+    @accepts({"type": "number"} | {name: x for name, x in limits.items() if x is not None})
+    def check(name: str, value: object) -> float:
+        result = real(name, value, expected)
+        over = high is not None and result > high
+        if over or (low is not None and result < low) or (above is not None and result <= above):
+            raise wrong(name, value, expected)
+        return result
+
+    return check
+
+
 def several(low: float, high: float, count: int, expected: str, fewer: int = 0) -> Check:
     """Return a check for so many numbers from low to high, kept as a tuple.
 
     fewer: how many may be left out at the end; they are 0.
     """
-    each = {"type": "number", "minimum": low, "maximum": high}
+    each = bounded(expected, low, high=high)
+    items = vars(each)["schema"]
 
-    @accepts({"type": "array", "items": each, "minItems": count - fewer, "maxItems": count})
+    @accepts({"type": "array", "items": items, "minItems": count - fewer, "maxItems": count})
     def check(name: str, value: Any) -> tuple[float, ...]:
         fits = isinstance(value, (tuple, list, np.ndarray)) and 0 <= count - len(value) <= fewer
         if not fits:
             raise wrong(name, value, expected)
-        found = tuple(real(f"{name}[{i}]", item) for i, item in enumerate(value))
-        if not all(low <= number <= high for number in found):
-            raise wrong(name, value, expected)
+        found = tuple(each(f"{name}[{i}]", item) for i, item in enumerate(value))
         return found + (0.0,) * (count - len(found))
 
     return check
@@ -104,19 +120,8 @@ def number(
     more: see `entry`, here and below.
     """
     expected = _bounds(low, above, high, unit) + (", or None" if optional else "")
-    limits = {"minimum": low, "exclusiveMinimum": above, "maximum": high}
-
-    @accepts({"type": "number"} | {name: x for name, x in limits.items() if x is not None})
-    def check(name: str, value: object) -> float | None:
-        if optional and value is None:
-            return None
-        result = real(name, value, expected)
-        over = high is not None and result > high
-        if over or (low is not None and result < low) or (above is not None and result <= above):
-            raise wrong(name, value, expected)
-        return result
-
-    return entry(check=check, unit=unit, **more)
+    check = bounded(expected, low, above, high)
+    return entry(check=check, unit=unit, optional=optional, **more)
 
 
 def integer(*, low: int, high: int, optional: bool = False, **more: Any) -> Any:
@@ -124,14 +129,12 @@ def integer(*, low: int, high: int, optional: bool = False, **more: Any) -> Any:
     expected = f"a whole number from {low} to {high}" + (", or None" if optional else "")
 
     @accepts({"type": "integer", "minimum": low, "maximum": high})
-    def check(name: str, value: object) -> int | None:
-        if optional and value is None:
-            return None
+    def check(name: str, value: object) -> int:
         if not low <= (result := _check_int(name, value, expected)) <= high:
             raise wrong(name, value, expected)
         return result
 
-    return entry(check=check, **more)
+    return entry(check=check, optional=optional, **more)
 
 
 def choice(*, of: Sequence[str], **more: Any) -> Any:
@@ -152,13 +155,11 @@ def flag(**more: Any) -> Any:
     return entry(check=_check_bool, **more)
 
 
-def text(*, optional: bool = False, **more: Any) -> Any:
+def text(**more: Any) -> Any:
     """Declare a field that is one line of text, such as a name or a title."""
 
     @accepts({"type": "string", "pattern": f"^[^{CONTROLS.pattern[1:]}*$"})
-    def check(name: str, value: object) -> str | None:
-        if optional and value is None:
-            return None
+    def check(name: str, value: object) -> str:
         found = _check_str(name, value)
         if CONTROLS.search(found):
             raise wrong(name, value, "text in one line, without codes of a terminal")
@@ -176,16 +177,18 @@ def entry(
     factory: Any = dataclasses.MISSING,
     kw_only: bool = True,
     names: str = "",
+    optional: bool = False,
 ) -> Any:
     """Declare a field with its own check, which returns the value to keep.
 
+    optional: whether it may also be None, for which the check is not asked.
     names: what the field mentions by name, for example a "robot", a "body" or a "sensor".
     """
     return dataclasses.field(
         default=default,
         default_factory=factory,
         kw_only=kw_only,
-        metadata={"check": check, "unit": unit, "doc": doc, "names": names},
+        metadata={"check": check, "unit": unit, "doc": doc, "names": names, "optional": optional},
     )
 
 
@@ -269,10 +272,11 @@ class Description:
 
     def __post_init__(self) -> None:
         for field in dataclasses.fields(self):
-            check = _check_of(field)
-            if check is not None:
+            check, value = _check_of(field), getattr(self, field.name)
+            left_out = value is None and field.metadata.get("optional")
+            if check is not None and not left_out:
                 name = f"{type(self).__name__}.{field.name}"
-                object.__setattr__(self, field.name, check(name, getattr(self, field.name)))
+                object.__setattr__(self, field.name, check(name, value))
         self._validate()
 
     def _validate(self) -> None:

@@ -23,7 +23,7 @@ from __future__ import annotations
 from math import sqrt
 from typing import NamedTuple, Self
 
-from mars2d.core.description import Check, accepts, real, wrong
+from mars2d.core.description import Check, accepts, bounded, wrong
 from mars2d.core.errors import nearest
 
 GRAVITY = 9.81
@@ -127,41 +127,24 @@ def check_static(name: str, static: float | None, kinetic: float) -> None:
         raise wrong(name, static, f"at least the kinetic coefficient, {kinetic:g}, or None")
 
 
-@accepts({"enum": list(MATERIALS)})
-def material(name: str, value: object) -> str | None:
-    """Check a material's name, or None."""
-    if value is None:
-        return None
-    if not isinstance(value, str) or value not in MATERIALS:
-        raise wrong(name, value, f"a material's name, or None{_known(value)}")
-    return value
-
-
 def _surface(quantity: str, high: float) -> Check:
     """Return the check of a surface's coefficient: a number up to `high`, or a material's name."""
     expected = f"a number >= 0 and <= {high:g}, or a material's name"
-    numeric = {"type": ["number", "string"], "minimum": 0, "maximum": high}
+    number = bounded(expected, low=0, high=high)
+    numeric = {**vars(number)["schema"], "type": ["number", "string"]}
 
     @accepts(numeric | {"if": {"type": "string"}, "then": {"enum": list(MATERIALS)}})
     def check(name: str, value: object) -> float:
         if isinstance(value, str):
             if value not in MATERIALS:
-                raise wrong(name, value, expected + _known(value))
+                raise wrong(name, value, expected + nearest(value.lower(), MATERIALS))
             return Coefficient(getattr(MATERIALS[value], quantity), value)
         if isinstance(value, Coefficient) and getattr(MATERIALS[value.material], quantity) == value:
             return value
-        result = real(name, value, expected)
-        if not 0 <= result <= high:
-            raise wrong(name, value, expected)
-        return result
+        return float(number(name, value))
 
     return check
 
 
 surface_friction, surface_restitution = _surface("friction", 1e3), _surface("restitution", 1.0)
 """Checks of a surface's coefficients of friction and restitution."""
-
-
-def _known(value: object) -> str:
-    """Return a hint at the nearest material's name, or else a list of all."""
-    return nearest(value.lower(), MATERIALS) if isinstance(value, str) else ""

@@ -47,9 +47,9 @@ def picture_name(image: str) -> str:
 
 
 @accepts({"type": "string"})
-def image_file(name: str, value: object) -> str | None:
-    """Check the name of a PNG file, a picture in a record, or None."""
-    if value is None or (isinstance(value, str) and holds_pixels(value)):
+def image_file(name: str, value: object) -> str:
+    """Check the name of a PNG file, or a picture in a record."""
+    if isinstance(value, str) and holds_pixels(value):
         return value
     if not isinstance(value, (str, os.PathLike)) or Path(value).suffix.lower() != ".png":
         raise wrong(name, value, "the name of a file that ends in .png, or None")
@@ -57,10 +57,8 @@ def image_file(name: str, value: object) -> str | None:
 
 
 @accepts({"type": "array", "items": COORDINATE, "minItems": 4, "maxItems": 4})
-def image_bounds(name: str, value: object) -> Bounds | None:
-    """Check the bounds of an image, or None."""
-    if value is None:
-        return None
+def image_bounds(name: str, value: object) -> Bounds:
+    """Check the bounds of an image."""
     if isinstance(value, (tuple, list, np.ndarray)) and len(value) == 4:
         xmin, xmax, ymin, ymax = (real(f"{name}[{i}]", item) for i, item in enumerate(value))
         if xmin < xmax and ymin < ymax and max(-xmin, xmax, -ymin, ymax) <= MAX_COORDINATE:

@@ -71,12 +71,6 @@ def color(name: str, value: object) -> str:
     raise InputError(f"{name} = {value!r}: expected a colour, '#rrggbb' or a name{hint}")
 
 
-@accepts(_COLOR)
-def optional_color(name: str, value: object) -> str | None:
-    """Check a colour, or None."""
-    return None if value is None else color(name, value)
-
-
 @lru_cache(maxsize=1024)
 def _checked(name: str, value: str) -> str:
     return color(name, value)
@@ -277,15 +271,20 @@ class Scene:
         if angle >= 2 * np.pi:
             self.circle(pose, radius, **look)
             return
-        x, y, theta = np.asarray(pose, dtype=float).tolist()
-        steps = theta + np.linspace(-angle / 2, angle / 2, max(2, int(angle / 0.1) + 2))
-        c, s = cosines_sines(steps)
-        arc = np.column_stack([x + radius * c, y + radius * s])
-        self.polygon(np.vstack([[x, y], arc]), **look)
+        tip = np.asarray(pose, dtype=float)[:2]
+        self.polygon(np.vstack([tip, arc(pose, radius, angle)]), **look)
 
     def extend(self, shapes: Iterable[Shape]) -> None:
         """Add the shapes of another scene."""
         self.shapes.extend(shapes)
+
+
+def arc(pose: ArrayLike, radius: float, angle: float) -> NDArray[np.float64]:
+    """Return points (k, 2) of an arc about the heading of a pose (3,)."""
+    x, y, theta = np.asarray(pose, dtype=float).tolist()
+    steps = theta + np.linspace(-angle / 2, angle / 2, max(2, int(angle / 0.1) + 2))
+    c, s = cosines_sines(steps)
+    return np.column_stack([x + radius * c, y + radius * s])
 
 
 def _points(points: ArrayLike | Outline) -> NDArray[np.float64]:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from mars2d.core import checks
 from mars2d.core.arithmetic import cosine_sine, norm, norms
-from mars2d.core.description import Description, accepts, entry, real, wrong
+from mars2d.core.description import Description, accepts, entry, number, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Outline, Point
 
@@ -121,15 +121,6 @@ class Shape(Description):
         return min(_width(piece) for piece in self.pieces)
 
 
-@accepts({"type": "number", "minimum": 1e-3, "maximum": 1e3})
-def _diameter(name: str, value: object) -> float:
-    expected = "a number >= 0.001 and <= 1000 [m]"
-    result = real(name, value, expected)
-    if not 1e-3 <= result <= 1e3:
-        raise wrong(name, value, expected)
-    return result
-
-
 class Disc(Shape):
     """A disc.
 
@@ -137,7 +128,7 @@ class Disc(Shape):
     ((0.1, 0.0), 0.15)
     """
 
-    diameter: float = entry(check=_diameter, unit="m", kw_only=False, doc="its diameter")
+    diameter: float = number(low=1e-3, high=1e3, unit="m", kw_only=False, doc="its diameter")
     center: Point = entry(default=(0.0, 0.0), check=checks.point, unit="m", doc="its centre")
 
     @property

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mars2d.core.description import Description, accepts, entry, flag, real, wrong
+from mars2d.core.description import Description, accepts, bounded, entry, flag, wrong
 from mars2d.core.scene import PALETTE, color, wake_style
 
+_factor = bounded(
+    "a factor of real time (1 is real time), 0 for one step a key press, or 'max'", low=0, high=1e6
+)
 
-@accepts({"anyOf": [{"type": "number", "minimum": 0, "maximum": 1e6}, {"const": "max"}]})
+
+@accepts({"anyOf": [vars(_factor)["schema"], {"const": "max"}]})
 def playback_speed(name: str, value: object) -> float | str:
     """Check a playback speed: a factor of real time, 0 for one step a key press, or "max"."""
-    expected = "a factor of real time (1 is real time), 0 for one step a key press, or 'max'"
-    if isinstance(value, str) and value == "max":
-        return "max"
-    factor = real(name, value, expected)
-    if not 0 <= factor <= 1e6:
-        raise wrong(name, value, expected)
-    return factor
+    return "max" if isinstance(value, str) and value == "max" else float(_factor(name, value))
 
 
 @accepts({"type": "array", "items": {"type": "string"}, "minItems": 1})

@@ -5,18 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import combinations
 
-from mars2d.core.description import Description, accepts, entry, number, wrong
-from mars2d.core.errors import InputError, nearest
+from mars2d.core.description import Description, choice, number, wrong
+from mars2d.core.errors import InputError
 from mars2d.core.materials import MATERIALS, check_static
-
-
-@accepts({"enum": list(MATERIALS)})
-def _material(name: str, value: object) -> str:
-    """Check a material's name."""
-    if not isinstance(value, str) or value not in MATERIALS:
-        hint = nearest(value.lower(), MATERIALS) if isinstance(value, str) else ""
-        raise wrong(name, value, f"a material's name, such as 'steel'{hint}")
-    return value
 
 
 class MaterialPair(Description):
@@ -29,8 +20,8 @@ class MaterialPair(Description):
     0.03
     """
 
-    a: str = entry(check=_material, kw_only=False, doc="a material's name")
-    b: str = entry(check=_material, kw_only=False, doc="the other material, or the same")
+    a: str = choice(of=tuple(MATERIALS), kw_only=False, doc="a material's name")
+    b: str = choice(of=tuple(MATERIALS), kw_only=False, doc="the other material, or the same")
     friction: float | None = number(
         default=None, low=0, high=1e3, optional=True,
         doc="coefficient of friction of the contact; None: by the rule",

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Annotated, Any, get_origin
 
 from mars2d.bodies.props.base import Prop
-from mars2d.core.description import Description, number, real, text, wrong
+from mars2d.core.description import Description, bounded, number, text, wrong
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.hints import described
 from mars2d.core.usercode import name_of
@@ -53,8 +53,7 @@ class Range(Description):
         """Raise InputError, which begins with `name`, for a value beyond the bounds."""
         unit = f" [{self.unit}]" if self.unit else ""
         expected = f"a number >= {self.low:g} and <= {self.high:g}{unit}, as its Range says"
-        if not self.low <= real(name, value, expected) <= self.high:
-            raise wrong(name, value, expected)
+        bounded(expected, self.low, high=self.high)(name, value)
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,7 +15,7 @@ from mars2d.core.arithmetic import cosine_sine
 from mars2d.core.description import Description, choice, entry, number, text, wrong
 from mars2d.core.materials import GRAVITY, check_static, surface_friction, surface_restitution
 from mars2d.core.plane import Point
-from mars2d.core.scene import optional_color
+from mars2d.core.scene import color
 from mars2d.geometry.shapes import Disc, Shape, known_shape
 from mars2d.sensors.base import Sensor
 
@@ -26,7 +26,12 @@ MAX_ACCELERATION = 1e5
 """The highest acceleration of a robot by its drive, m/s^2; more needs ever more substeps."""
 
 
-_shape = checks.optional(known_shape, "Polygon([(-0.2, -0.1), (0.2, 0), (-0.2, 0.1)])")
+def _shape(name: str, value: object) -> Shape:
+    return known_shape(name, value, "Polygon([(-0.2, -0.1), (0.2, 0), (-0.2, 0.1)])")
+
+
+def _law(name: str, value: object) -> object:
+    return checks.function(name, value, "the robot")
 
 
 class Robot(Description):
@@ -55,7 +60,7 @@ class Robot(Description):
         doc="diameter of the chassis, a disc",
     )
     shape: Shape | None = entry(
-        default=None, check=_shape,
+        default=None, check=_shape, optional=True,
         doc="the chassis, if it is not a disc, around the geometric centre, x ahead",
     )  # fmt: skip
     mass: float = number(default=1.0, low=1e-6, high=1e6, unit="kg", doc="mass")
@@ -88,7 +93,8 @@ class Robot(Description):
     )
     controller: Callable[[Any], Any] | None = entry(
         default=None,
-        check=checks.optional(checks.function, "the robot"),
+        check=_law,
+        optional=True,
         doc="its own law, a function or generator of the robot",
     )
     sees: str = choice(
@@ -98,7 +104,7 @@ class Robot(Description):
     )  # fmt: skip
     name: str | None = text(default=None, optional=True, doc="its name, else robot0, robot1, ...")
     color: str | None = entry(
-        default=None, check=optional_color, doc="its colour; None: one of base_colors"
+        default=None, check=color, optional=True, doc="its colour; None: one of base_colors"
     )
 
     def at(self, x: float, y: float, theta: float = 0.0) -> Self:

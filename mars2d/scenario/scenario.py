@@ -95,7 +95,7 @@ class Scenario(Description):
     )  # fmt: skip
     workspace: Outline | None = entry(
         default=((-5.0, -5.0), (-5.0, 5.0), (5.0, 5.0), (5.0, -5.0)),
-        check=checks.optional(checks.polygon), unit="m",
+        check=checks.polygon, optional=True, unit="m",
         doc="the polygon in which the robots move; None: no limits",
     )  # fmt: skip
     on_exit: str = choice(
@@ -113,7 +113,7 @@ class Scenario(Description):
         doc="the longest duration",
     )
     stop_on: str | Pairs | None = entry(
-        default=None, check=stop_on,
+        default=None, check=stop_on, optional=True,
         doc="touches that end the experiment: any, or of bodies, roles or 'wall' by name",
         names="body",
     )  # fmt: skip

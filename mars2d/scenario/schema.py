@@ -27,9 +27,7 @@ def schema() -> Schema:
     It accepts every file that `save_scenario` writes, and refuses every number beyond the bounds of
     its field. Conditions between fields, such as robots that overlap, are beyond it.
     """
-    places = [place for fields in serialize.PARTS.values() for place in fields.values()]
-    bases = {place.base for place in (*places, READY_MADE)}
-    kinds = {kind for base in bases for kind in serialize.kinds_of(base).values()}
+    kinds = [kind for kind in serialize.all_kinds().values() if kind is not Scenario]
     scenario = _table(Scenario)
     scenario["properties"] |= {"format": {"const": FORMAT}, "control": LAW}
     scenario["required"] = ["format", *scenario.get("required", [])]

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Callable, Sequence
 from functools import cache
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_args, get_origin, get_type_hints
 
 from mars2d.addons.base import Addon
-from mars2d.addons.communication import Burst, Communication
+from mars2d.addons.communication import Burst
 from mars2d.addons.map import Map
 from mars2d.bodies.drives.base import Drive
 from mars2d.bodies.drives.wheeled import Unicycle
@@ -26,13 +27,12 @@ from mars2d.scenario.random_starts import RandomStarts
 from mars2d.scenario.registry import FAMILIES, family_of, members
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
-from mars2d.sensors.base import Sensor
 
 
 class Place(NamedTuple):
     """A field that holds parts derived from `base`: one of them or a list.
 
-    default: the class that is meant if no type is given; None if a type must be given.
+    default: the class that is meant if no type is given, which has fields; None: it must be given.
     """
 
     base: type[Description]
@@ -40,43 +40,32 @@ class Place(NamedTuple):
     default: type[Description] | None = None
 
 
-PARTS: dict[type[Description], dict[str, Place]] = {
-    Scenario: {
-        "robots": Place(Robot, many=True, default=Robot),
-        "props": Place(Prop, many=True),
-        "joints": Place(Joint, many=True),
-        "material_pairs": Place(MaterialPair, many=True, default=MaterialPair),
-        "random_starts": Place(RandomStarts, many=True, default=RandomStarts),
-        "addons": Place(Addon, many=True),
-        "neighbours": Place(Neighbourhood),
-        "animation": Place(Animation, default=Animation),
-    },
-    Robot: {
-        "drive": Place(Drive, default=Unicycle),
-        "shape": Place(Shape),
-        "sensors": Place(Sensor, many=True),
-    },
-    Solid: {"shape": Place(Shape)},
-    Compound: {"parts": Place(Shape, many=True)},
-    Communication: {"burst": Place(Burst, default=Burst)},
-}
-"""The fields that hold parts."""
+def _parts_of(kind: type[Any]) -> dict[str, Place]:
+    """Return the fields of a class, inherited ones included, that hold parts, as annotated."""
+    hints, found = get_type_hints(kind), {}
+    for field in dataclasses.fields(kind):
+        hint = hints[field.name]
+        for base in (hint, *get_args(hint)):
+            if isinstance(base, type) and issubclass(base, Description):
+                usual: tuple[Any, ...] = (base, field.default_factory)
+                known = (each for each in usual if each in all_kinds().values())
+                meant = next(filter(dataclasses.fields, known), None)
+                found[field.name] = Place(base, get_origin(hint) is Sequence, meant)
+    return found
 
 
-def parts_of(kind: type[Description]) -> dict[str, Place]:
-    """Return the fields of a class, inherited ones included, that hold parts."""
-    return {name: at for base in kind.__mro__ for name, at in PARTS.get(base, {}).items()}
+parts_of: Callable[[type], dict[str, Place]] = cache(_parts_of)
 
 
 def kinds_of(base: type[Description]) -> dict[str, type[Description]]:
     """Return all classes by name that a file may name where a `base` is expected."""
-    return {kind.__name__: kind for kind in _kinds().values() if issubclass(kind, base)}
+    return {kind.__name__: kind for kind in all_kinds().values() if issubclass(kind, base)}
 
 
 def kind_of(plain: dict[str, Any]) -> type[Description] | None:
     """Return the class of a part that `from_description` made plain; None if it is not known."""
     name = plain.get("type")
-    return _kinds().get(name) if isinstance(name, str) else None
+    return all_kinds().get(name) if isinstance(name, str) else None
 
 
 def is_ready_made(kind: type | None) -> bool:
@@ -112,7 +101,7 @@ def from_description(value: Any) -> Any:
         kind = type(value)
         if kind.__module__.startswith("mars2d."):
             with_family = f"{family_of(kind)}.{kind.__name__}"  # where two have one name
-            name = with_family if with_family in _kinds() else kind.__name__
+            name = with_family if with_family in all_kinds() else kind.__name__
             return {"type": name, **_fields(value)}
         for base in (Scenario, Robot, Animation):  # a derived class counts as one of them
             if isinstance(value, base):
@@ -217,7 +206,7 @@ def _to_description(value: Any, missing: list[str]) -> Any:
         if value["own"] == "prop":
             missing.extend(f"joint {joint['type']} of {value['type']}" for joint in value["joints"])
         return _stand_in(value["own"], fields)
-    kind = _kinds()[value["type"]]
+    kind = all_kinds()[value["type"]]
     known = kind.__dataclass_fields__  # a record from before may say of others that they are off
     return kind(**{name: each for name, each in fields.items() if each or name in known})
 
@@ -227,7 +216,8 @@ def _is_function(value: Any) -> bool:
 
 
 @cache
-def _kinds() -> dict[str, type[Description]]:
+def all_kinds() -> dict[str, type[Description]]:
+    """Return all classes by the names that records give them."""
     kinds: dict[str, type[Description]] = {kind.__name__: kind for kind in _KNOWN}
     for family in FAMILIES:
         for name, kind in members(family).items():

@@ -32,10 +32,10 @@ _PAIR = {"items": _TEXT, "minItems": 2, "maxItems": 2}
         },
     }
 )
-def stop_on(name: str, value: object) -> str | Pairs | None:
+def stop_on(name: str, value: object) -> str | Pairs:
     """Check what ends a run: "contact", or pairs of names; one pair may stand alone."""
-    if value is None or value == CONTACT:
-        return value if isinstance(value, str) else None
+    if value == CONTACT:
+        return CONTACT
     expected = "'contact', or pairs of names, such as [('red', 'blue'), ('red', 'wall')]"
     pairs = items_of(name, value, expected)
     if len(pairs) == 2 and all(isinstance(item, str) for item in pairs):

@@ -14,7 +14,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from mars2d.core.description import Check, Description, wrong
+from mars2d.core.description import Description, wrong
 from mars2d.core.errors import InputError, likely, nearest, shown
 from mars2d.core.files import atomic_write, file_beside
 from mars2d.core.picture import holds_pixels, image_file
@@ -380,16 +380,13 @@ def _inside(at: str, name: str) -> str:
 
 def takes_none(field: dataclasses.Field[Any]) -> bool:
     """Return whether the text "none" stands for None in a field, which takes None, not text."""
-    check = field.metadata.get("check")
-    return check is not None and _accepts(check, None) and not _accepts(check, NONE)
-
-
-def _accepts(check: Check, value: object) -> bool:
-    try:
-        check("", value)
-    except Exception:  # a user's own check may refuse by any error
+    if not field.metadata.get("optional"):
         return False
-    return True
+    try:
+        field.metadata["check"]("", NONE)
+    except InputError:
+        return True
+    return False
 
 
 HEADER = re.compile(r"(\[\[?)\s*([A-Za-z_]\w*(?:\s*\.\s*\w+)*)\s*\]\]?\s*(?:#.*)?")

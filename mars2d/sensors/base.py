@@ -149,7 +149,10 @@ class Sensor(Stateful):
     """
 
     name: str | None = entry(
-        default=None, check=checks.identifier("robot.sense."), doc="the name of the reading"
+        default=None,
+        check=checks.identifier("robot.sense."),
+        optional=True,
+        doc="the name of the reading",
     )
     mount: tuple[float, float, float] = entry(
         default=(0.0, 0.0, 0.0), check=checks.pose, unit="m, m, rad",

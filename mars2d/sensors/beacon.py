@@ -54,6 +54,7 @@ class Beacon(Scanner):
     names: tuple[str, ...] | None = entry(
         default=None,
         check=checks.names("a list of beacons' names, such as ['lamp'], or None"),
+        optional=True,
         doc="the beacons that it looks for; None: all",
     )
 

@@ -10,12 +10,12 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.arithmetic import angle_of, cosines_sines
+from mars2d.core.arithmetic import angle_of
 from mars2d.core.description import integer, number
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.plane import WITHIN
 from mars2d.core.quantity import FLAG, Quantity
-from mars2d.core.scene import Scene, faded
+from mars2d.core.scene import Scene, arc, faded
 from mars2d.sensors.base import Float, Sensor, sight_angle
 from mars2d.sensors.surroundings import Surroundings
 
@@ -91,14 +91,8 @@ class Bumper(Sensor):
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw the sectors as arcs round the robot, lit where it was touched."""
         x, y, theta = self.placed(pose).tolist()
-        width = self.field_of_view / self.sectors
-        across = np.linspace(-0.46, 0.46, max(2, int(width / 0.1) + 2)) * width
+        width = 0.92 * self.field_of_view / self.sectors  # a gap parts it from the next
         for angle, touched in zip(theta + self.angles, np.asarray(reading).tolist(), strict=True):
-            arc = angle + across
-            radius = 1.15 * self.radius
-            c, s = cosines_sines(arc)
-            points = np.column_stack([x + radius * c, y + radius * s])
-            if touched:
-                scene.line(points, stroke=LIT, width=4.0)
-            else:
-                scene.line(points, stroke=faded(color, 0.45), width=1.5)
+            stroke, thick = (LIT, 4.0) if touched else (faded(color, 0.45), 1.5)
+            points = arc((x, y, angle), 1.15 * self.radius, width)
+            scene.line(points, stroke=stroke, width=thick)

@@ -95,13 +95,6 @@ class Device:
         with called(f"sensor {self.key!r}", self.sensor.on_step, self._robot_name):
             self.sensor.on_step(self.view, self.world, self.rng)
 
-    def step(self, iteration: int) -> None:
-        """Measure, if it is time, and show the latest reading that has arrived."""
-        if iteration % self.period == 0:
-            self.send(self._measured(), iteration)
-        else:
-            self.show(iteration)
-
     def send(self, measured: Any, iteration: int) -> None:
         """Send a measurement of this control step on its way, and show the latest reading."""
         if self.age == 0:
@@ -120,14 +113,6 @@ class Device:
         else:
             self.readings[self.key] = self._shown
 
-    def _measured(self) -> Any:
-        try:
-            reading = self.sensor.read(self.view, self.world, self.rng)
-            return _kept(self.sensor.measured(reading, self.rng))
-        except BaseException as error:
-            self.reading_it.blame(error)
-            raise
-
     def _take(self, reading: Any) -> None:
         """Keep a reading as the latest one, and show it."""
         self.reading = self._shown = reading
@@ -138,7 +123,7 @@ class Device:
 
 
 class _Team:
-    """Devices with equal sensors, which are read together.
+    """Devices with equal sensors, which are read together, or a single one.
 
     readings: those that are recorded at this control step as one array, or None.
     """
@@ -162,8 +147,12 @@ class _Team:
 
     def _measured(self) -> Sequence[Any]:
         first = self._first
+        found: Sequence[Any] | NDArray[Any]
         try:
-            found = first.sensor.read_all(self._robots, first.world, self._rngs)
+            if len(self.devices) == 1:  # its class may have only `read` of its own
+                found = [first.sensor.read(first.view, first.world, first.rng)]
+            else:
+                found = first.sensor.read_all(self._robots, first.world, self._rngs)
             measured = first.sensor.measured_all(found, self._rngs)
             if not isinstance(measured, np.ndarray):
                 return [_kept(reading) for reading in measured]
@@ -186,7 +175,7 @@ class Sensing:
         self.devices = devices
         self._following = [device for device in devices if device.follows]
         groups = _grouped(devices)
-        self._parts = [_Team(group) if len(group) > 1 else group[0] for group in groups]
+        self._parts = [_Team(group) for group in groups]
         self._recorded: dict[str, list[Device]] = {}
         for device in devices:
             if device.sensor.recorded:
@@ -194,7 +183,7 @@ class Sensing:
         self._whole = {
             part.devices[0].key: part
             for part in self._parts
-            if isinstance(part, _Team) and part.devices == self._recorded.get(part.devices[0].key)
+            if part.devices == self._recorded.get(part.devices[0].key)
         }
 
     def hide(self) -> None:

@@ -13,7 +13,7 @@ from mars2d.core.arithmetic import cosine_sine, cosines_sines, norms
 from mars2d.core.description import integer, number
 from mars2d.core.plane import WITHIN, Point, up_to
 from mars2d.core.quantity import DISTANCE, Quantity
-from mars2d.core.scene import Scene, faded
+from mars2d.core.scene import Scene, arc, faded
 from mars2d.geometry.bearings import beam_angles
 from mars2d.sensors.base import Fan, Float, Scanner, sight_angle
 from mars2d.sensors.surroundings import Surroundings
@@ -77,12 +77,8 @@ class SonarRing(Scanner):
     def draw(self, scene: Scene, pose: Float, reading: Any, color: str) -> None:
         """Draw each cone as far as it is free, and an arc where it ends at something."""
         x, y, theta = self.placed(pose).tolist()
-        steps = np.linspace(-self.cone / 2, self.cone / 2, max(2, int(self.cone / 0.1) + 2))
         for angle, distance in zip(theta + self.angles, np.asarray(reading).tolist(), strict=True):
             far = min(distance, self.range)
             scene.sector((x, y, angle), far, self.cone, fill=faded(color, 0.1))
             if distance <= self.range:
-                arc = angle + steps
-                c, s = cosines_sines(arc)
-                ends = np.column_stack([x + far * c, y + far * s])
-                scene.line(ends, stroke=faded(color, 0.9), width=2.0)
+                scene.line(arc((x, y, angle), far, self.cone), stroke=faded(color, 0.9), width=2.0)

@@ -10,7 +10,7 @@ import pytest
 from PIL import Image
 
 import mars2d
-from mars2d import Scenario
+from mars2d import InputError, Scenario
 from mars2d.addons import Floor
 from mars2d.output.formats import SUFFIXES
 from mars2d.output.formats.header import as_text
@@ -65,16 +65,8 @@ def foreign(record: mars2d.Record, image: str) -> Path:
     return Path("foreign.npz")
 
 
-OPENED = """
-import sys, mars2d
-from mars2d.core.scene import Scene
-opened = []
-sys.addaudithook(lambda event, words: opened.append(str(words[0])) if event == "open" else None)
-loaded = mars2d.load("foreign.npz")
-loaded.save_html("run.html")
-scene = Scene()
-for addon in loaded.scenario.addons:
-    addon.paint(scene, ((0, 0), (1, 0), (1, 1)))
-print([shape.text for shape in scene.shapes if hasattr(shape, "text")])
-print([name for name in opened if "secret" in name], loaded.missing)
-"""
+def test_a_picture_that_a_record_only_names_is_missing_though_its_file_is_there(scenario) -> None:
+    loaded = mars2d.load(foreign(mars2d.run(scenario), str(Path("a b;c.png").absolute())))
+    assert loaded.missing == ("picture a b;c.png of Floor",)
+    with pytest.raises(InputError, match="the record does not hold this picture"):
+        _ = loaded.scenario.addons[0].picture

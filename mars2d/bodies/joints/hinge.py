@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from math import pi
-from typing import Any
 
 from mars2d.bodies.constraints import Constraint, Pin, TurningRange, TurningSpring
 from mars2d.bodies.joints.base import Float, Joint
@@ -16,10 +15,8 @@ _pair = several(-100 * pi, 100 * pi, 2, LIMITS)
 
 
 @accepts(vars(_pair)["schema"])
-def turning_limits(name: str, value: Any) -> tuple[float, float] | None:
+def turning_limits(name: str, value: object) -> tuple[float, float]:
     """Check the limits of a hinge, angles from its start."""
-    if value is None:
-        return None
     least, largest = _pair(name, value)
     if not least <= 0 <= largest:
         raise wrong(name, value, LIMITS)
@@ -36,6 +33,7 @@ class Hinge(Joint):
     limits: tuple[float, float] | None = entry(
         default=None,
         check=turning_limits,
+        optional=True,
         unit="rad",
         doc="the range of rotation of b, or without b of a",
     )

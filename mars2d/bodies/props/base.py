@@ -10,6 +10,7 @@ from mars2d.bodies.rigid import Inertia, Rigid, Surface, inertia_of
 from mars2d.core import checks
 from mars2d.core.description import (
     Description,
+    choice,
     entry,
     number,
     several,
@@ -19,12 +20,11 @@ from mars2d.core.materials import (
     MATERIALS,
     Coefficient,
     check_static,
-    material,
     surface_friction,
     surface_restitution,
 )
-from mars2d.core.scene import optional_color
-from mars2d.geometry.shapes import Shape
+from mars2d.core.scene import color
+from mars2d.geometry.shapes import Shape, rectangle
 
 MAX_SPEED = 100.0
 """The highest speed at the start, m/s and rad/s; higher ones need ever more substeps."""
@@ -53,9 +53,10 @@ class Prop(Description):
         unit="m/s, m/s, rad/s",
         doc="initial velocity (vx, vy, omega)",
     )  # fmt: skip
-    material: str | None = entry(
-        default=None, check=material, doc="its material, which gives the values that are None below"
-    )
+    material: str | None = choice(
+        default=None, of=tuple(MATERIALS), optional=True,
+        doc="its material, which gives the values that are None below",
+    )  # fmt: skip
     mass: float | None = number(
         default=None, low=1e-6, high=1e6, unit="kg", optional=True,
         doc="mass; None: density x area x height, or 1 kg without a material",
@@ -68,11 +69,11 @@ class Prop(Description):
         default=0.1, above=0, high=1e3, unit="m", doc="its height, for the mass by material"
     )
     friction: float | None = entry(
-        default=None, check=checks.optional(surface_friction),
+        default=None, check=surface_friction, optional=True,
         doc="of its sides; None: the material's, or 0.5",
     )  # fmt: skip
     restitution: float | None = entry(
-        default=None, check=checks.optional(surface_restitution),
+        default=None, check=surface_restitution, optional=True,
         doc="of its sides; None: the material's, or 0",
     )  # fmt: skip
     static_friction: float | None = number(
@@ -87,7 +88,9 @@ class Prop(Description):
         doc="friction on the floor at rest; None: as ground_friction",
     )  # fmt: skip
     name: str | None = text(default=None, optional=True, doc="its name, else box0, ball1, ...")
-    color: str | None = entry(default=None, check=optional_color, doc="its colour; None: automatic")
+    color: str | None = entry(
+        default=None, check=color, optional=True, doc="its colour; None: automatic"
+    )
 
     def _validate(self) -> None:
         kind = type(self).__name__
@@ -103,8 +106,10 @@ class Prop(Description):
 
     @cached_property
     def shape(self) -> Shape:
-        """Its shape, the centre of mass at the origin."""
-        raise NotImplementedError(f"{type(self).__name__} must say what shape it has")
+        """Its shape, the centre of mass at the origin; that of a rectangle by its `sides`."""
+        if self.side_lengths is None:
+            raise NotImplementedError(f"{type(self).__name__} must say what shape it has")
+        return rectangle(*self.side_lengths)
 
     @property
     def side_lengths(self) -> tuple[float, float] | None:

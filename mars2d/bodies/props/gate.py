@@ -2,31 +2,24 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from math import pi
-from typing import ClassVar
 
 from mars2d.bodies.joints.base import Joint
 from mars2d.bodies.joints.hinge import Hinge, turning_limits
-from mars2d.bodies.props.base import Prop
+from mars2d.bodies.props.rectangles import Bar
 from mars2d.core.arithmetic import cosine_sine
 from mars2d.core.description import entry, number
-from mars2d.geometry.shapes import Shape, rectangle
 
 
-class Gate(Prop):
+class Gate(Bar):
     """A bar on a hinge that is fixed to the world, at the bar's rear end.
 
     The pose is that of its middle. Without stiffness it stays where it was left.
     """
 
-    sides: ClassVar[tuple[str, ...]] = ("length", "thickness")
-
-    length: float = number(default=1.0, low=1e-3, high=1e3, unit="m", doc="its length")
-    thickness: float = number(default=0.06, low=1e-3, high=1e3, unit="m", doc="its thickness")
     ground_friction = 0.0
     limits: tuple[float, float] | None = entry(
-        default=(-pi / 2, pi / 2), check=turning_limits, unit="rad",
+        default=(-pi / 2, pi / 2), check=turning_limits, optional=True, unit="rad",
         doc="its range of rotation; None: unbounded",
     )  # fmt: skip
     limit_restitution: float = number(
@@ -38,11 +31,6 @@ class Gate(Prop):
     damping: float = number(
         default=0.05, low=0, high=1e6, unit="N m s/rad", doc="damping of its rotation"
     )
-
-    @cached_property
-    def shape(self) -> Shape:
-        """The bar."""
-        return rectangle(self.length, self.thickness)
 
     def joints(self) -> tuple[Joint, ...]:
         """Return the hinge."""

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import ClassVar
 
 from mars2d.bodies.props.base import Prop
 from mars2d.core.description import number
-from mars2d.geometry.shapes import Shape, rectangle
 
 
 class Box(Prop):
@@ -22,11 +20,6 @@ class Box(Prop):
     length: float = number(default=0.4, low=1e-3, high=1e3, unit="m", doc="side along its heading")
     width: float = number(default=0.4, low=1e-3, high=1e3, unit="m", doc="side across")
 
-    @cached_property
-    def shape(self) -> Shape:
-        """The rectangle."""
-        return rectangle(self.length, self.width)
-
 
 class Bar(Prop):
     """A long, thin rectangle along its heading."""
@@ -35,8 +28,3 @@ class Bar(Prop):
 
     length: float = number(default=1.0, low=1e-3, high=1e3, unit="m", doc="its length")
     thickness: float = number(default=0.06, low=1e-3, high=1e3, unit="m", doc="its thickness")
-
-    @cached_property
-    def shape(self) -> Shape:
-        """The rectangle."""
-        return rectangle(self.length, self.thickness)
