@@ -167,7 +167,7 @@ class CompareWindow(PlayerWindow):
         self._leave_out_names(self._ui)
         handles = [*self._controls.handles, (self.plot.hit, self._scrub)]
         self.mouse = Mouse(self.viewpoint, handles, self._place)
-        self.toolbar = Toolbar(self._actions, self._is_on, live=True)
+        self.toolbar = Toolbar(self._actions, self._is_on, self.menu, live=True)
 
     def _calls(self) -> object:
         runs = self.trio.runs.values()

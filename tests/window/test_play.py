@@ -191,7 +191,7 @@ def test_a_role_is_chosen_counted_down_and_driven(play, way):
     if way == "number":
         person.press("2")
     else:
-        person.do("mousemove", *person.state["game"]["choices"]["evader"], "click", 1)
+        person.do("mousemove", *person.state["menu"]["evader"], "click", 1)
     person.until(lambda s: s["game"]["seats"] == [1] and s["game"]["counting"])
     assert person.state["time"] == 0
     person.until(lambda s: not s["game"]["counting"] and s["time"] > 0)

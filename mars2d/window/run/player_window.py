@@ -34,6 +34,7 @@ from mars2d.window.screen.source import Source
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.actions import label_of
 from mars2d.window.widgets.help import Help
+from mars2d.window.widgets.menu import Menu
 from mars2d.window.widgets.notes import Notes
 
 NAME = 20.0
@@ -70,7 +71,7 @@ class PlayerWindow(ABC):
         """Prepare; the window opens with `run`. marked: whose events the time bar marks."""
         self.player, self.size, self.title = Player(source, speed), size, f"{title} - MARS2D"
         self.layers = Layers.of(source.scenario.animation)
-        self.help, self.notes = Help(), Notes()
+        self.help, self.notes, self.menu = Help(), Notes(), Menu()
         self.looks = Looks(preferences, self.notes.say)
         self.saver = Saver(self.notes, stem)
         self._controls = Controls(self.player, marked or source)
@@ -265,7 +266,7 @@ class PlayerWindow(ABC):
         """Return whether the setting that a button switches is on."""
         return {
             "pause": self.player.playing,
-            "layers": self.toolbar.menu.name == "layers",
+            "layers": self.menu.name == "layers",
             "help": self.help.is_open,
         }.get(action, self.looks.is_on(action))
 

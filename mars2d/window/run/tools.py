@@ -102,15 +102,14 @@ class Stopwatch:
 class Tools:
     """The tools of a run window.
 
-    actions: what takes them up, by name. menu: where they ask.
+    actions: what takes them up, by name. prompts: where they ask.
     """
 
     def __init__(
-        self, player: Player, director: Director, selection: Selection, notes: Notes
+        self, player: Player, director: Director, selection: Selection, notes: Notes, menu: Menu
     ) -> None:
         """Put all of them away."""
-        self.ruler, self.stopwatch, self.menu = Ruler(), Stopwatch(), Menu()
-        self.prompts = Prompts(self.menu)
+        self.ruler, self.stopwatch, self.prompts = Ruler(), Stopwatch(), Prompts(menu)
         self._player, self._director = player, director
         self._selection, self._notes = selection, notes
         self.actions: dict[str, Callable[[], None]] = {

@@ -21,7 +21,7 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.window.panels.panels import Panels
 from mars2d.window.run import keys
 from mars2d.window.run.arena import Arena
-from mars2d.window.run.countdown import Countdown
+from mars2d.window.run.countdown import draw_countdown, entries_of_roles
 from mars2d.window.run.director import Director
 from mars2d.window.run.grab import CLICK, Grab
 from mars2d.window.run.menus import (
@@ -81,10 +81,9 @@ class Window(PlayerWindow):
         self.asks = False  # before a run is lost that can't just be run again
         self.editor: Editor | None = None
         self.game: Play | None = None  # where people play
-        self.countdown: Countdown | None = None
         self.selection, painter = Selection(), self.looks.painter
         self.director = Director(self.player, self.notes, self._show_way_back)
-        self.tools = Tools(self.player, self.director, self.selection, self.notes)
+        self.tools = Tools(self.player, self.director, self.selection, self.notes, self.menu)
         self.dock = Panels(
             painter, self.player, self.selection, path, self.director.set, self.notes, self.saver
         )
@@ -119,7 +118,7 @@ class Window(PlayerWindow):
             **self.dock.actions,
         }
         acts = {name: act for name, act in self._actions.items() if name not in self.dock.lacking}
-        self.toolbar = Toolbar(acts, self._is_on, live=timeline is not None)
+        self.toolbar = Toolbar(acts, self._is_on, self.menu, live=timeline is not None)
 
     @property
     def selected(self) -> int | None:
@@ -144,9 +143,13 @@ class Window(PlayerWindow):
         """Make it a game, with people at these robots, or with roles that they choose."""
         self.game = Play(self.player, self.director)
         self._ending.of_game = True
-        self.countdown = Countdown(self.looks.painter, self.game)
         self.dock.panels = [*self.dock.panels, ScorePanel(self.looks.painter, self.game)]
         self.game.begin(robots)
+        if not self.game.seats:
+            self._offer_roles(self.game)
+
+    def _offer_roles(self, game: Play) -> None:
+        self.menu.open("roles", partial(entries_of_roles, game), (0, 0), stays=True)
 
     # -- time -----------------------------------------------------------------------------------
 
@@ -173,8 +176,11 @@ class Window(PlayerWindow):
             return
         self._read_again()
         self._meet()
-        if self.game is not None and self.game.pass_time(seconds):
-            self._rest.stir()
+        if self.game is not None:
+            if self.game.pass_time(seconds):
+                self._rest.stir()
+            if not (self.game.seats or self.menu.is_open):
+                self._offer_roles(self.game)
         self.director.steer(seconds)
         self.grab.tick()
         self.dock.parameters.tick()
@@ -246,10 +252,9 @@ class Window(PlayerWindow):
         hints = () if self.game is not None else BY_HAND if self.director.drives else USUAL
         draw_footer(surface, layout, painter, self._ending.banner(), summary(frame), hints)
         if notes:
-            if self.countdown is not None:
-                self.countdown.draw(surface, self.viewpoint.room, layout.plot, frame.scenario)
+            if self.game is not None and self.game.counting:
+                draw_countdown(surface, self.viewpoint.room, painter, self.game.counting)
             self.toolbar.draw(surface, layout, painter, self._pointer)
-            self.tools.menu.draw(surface, layout.plot, painter)
         self.help.draw(surface, layout, painter, keys.GROUPS.items())
 
     def _draw_notes(self, surface: pygame.Surface) -> None:
@@ -311,19 +316,18 @@ class Window(PlayerWindow):
     # -- events ---------------------------------------------------------------------------------
 
     def _take(self, event: pygame.Event) -> bool:
-        if self.tools.menu.handle(event):
+        if self.editor is None and self.menu.is_open and self.toolbar.handle(event):
             return True
-        over = self.editor is None and self.toolbar.menu.is_open and self.toolbar.handle(event)
-        if not over and self.director.handle(event):
+        if self.director.handle(event):
             return True
         if self.editor is not None:
             self.editor.handle(event)
             if self.editor.dialogs.done:
                 self._close_editor(self.editor)
             return True
-        if not over and self.countdown is not None and self.countdown.handle(event):
+        if self.game is not None and self.game.handle(event):
             return True
-        if over or self.toolbar.handle(event):
+        if self.toolbar.handle(event):
             return True
         if not self.help.is_open and self.dock.handle(event):
             return True
@@ -385,7 +389,7 @@ class Window(PlayerWindow):
             entries = entries_of_place(point, self._actions, self.tools.measure_from, live=live)
         else:
             entries = entries_of_body(frame, body, self._actions, live=live)
-        self.toolbar.menu.open("offer", lambda: entries, (x, y))
+        self.menu.open("offer", lambda: entries, (x, y))
 
     def _plots(self) -> list[Entry]:
         """Return the entries of the menu of plots."""
@@ -475,7 +479,7 @@ class Window(PlayerWindow):
 
     def _close(self) -> None:
         """Close the window; if hands did something that would be lost, ask first, once."""
-        timeline, menu = self.director.timeline, self.toolbar.menu
+        timeline, menu = self.director.timeline, self.menu
         if not self.asks or timeline is None or not timeline.changed or menu.name == "leave":
             super()._close()
             return
