@@ -6,7 +6,7 @@ def test_a_menu_opens_on_what_is_selected_or_on_the_floor(open_window, room):
     window.press("F10")
     assert "Show all" in window.settle()["menu"]
     window.press("Escape", "Tab", "Tab", "Tab", "F10")
-    menu = window.shown.toolbar.menu
+    menu = window.shown.menu
     window.type("f")  # by its first letter
     assert menu.chosen == "Follow with the camera"
     window.press("Return")

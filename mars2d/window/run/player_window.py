@@ -32,10 +32,11 @@ from mars2d.window.screen.rest import Rest
 from mars2d.window.screen.saving import Saver
 from mars2d.window.screen.source import Source
 from mars2d.window.screen.viewpoint import Viewpoint
-from mars2d.window.widgets.actions import label_of
+from mars2d.window.widgets.actions import action_of, label_of
 from mars2d.window.widgets.help import Help
 from mars2d.window.widgets.menu import Menu
 from mars2d.window.widgets.notes import Notes
+from mars2d.window.widgets.prompt import Prompts
 
 NAME = 20.0
 """How far bodies are apart at the start where their names are drawn at first, points."""
@@ -72,11 +73,12 @@ class PlayerWindow(ABC):
         self.player, self.size, self.title = Player(source, speed), size, f"{title} - MARS2D"
         self.layers = Layers.of(source.scenario.animation)
         self.help, self.notes, self.menu = Help(), Notes(), Menu()
+        self.prompts = Prompts(self.menu)
         self.looks = Looks(preferences, self.notes.say)
         self.saver = Saver(self.notes, stem)
         self._controls = Controls(self.player, marked or source)
         self._ending = Ending(self.player)
-        self._keyboard, self._rest = keys.Keyboard(), Rest()
+        self._held, self._rest = set[int](), Rest()  # keys; a held one repeats few actions
         self._open = False
         self._passing = False  # whether laws may be asked
         self._limit = Deadline(patience(), give_up, self._calls, self._answer)
@@ -243,9 +245,9 @@ class PlayerWindow(ABC):
         elif event.type == pygame.KEYDOWN:
             self._press(event)
         elif event.type == pygame.KEYUP:
-            self._keyboard.release(event.key)
+            self._held.discard(event.key)
         elif event.type == pygame.WINDOWFOCUSLOST:
-            self._keyboard.clear()
+            self._held.clear()
         else:
             self._point(event)
 
@@ -258,8 +260,9 @@ class PlayerWindow(ABC):
         self.mouse.handle(event)
 
     def _press(self, event: pygame.Event) -> None:
-        action = self._keyboard.press(event)
-        if action is not None and action.name in self._actions:
+        action, held = action_of(event, keys.ACTIONS), event.key in self._held
+        self._held.add(event.key)
+        if action is not None and action.name in self._actions and (action.repeats or not held):
             self._actions[action.name]()
 
     def _is_on(self, action: str) -> bool:

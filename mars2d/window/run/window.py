@@ -26,7 +26,6 @@ from mars2d.window.run.director import Director
 from mars2d.window.run.grab import CLICK, Grab
 from mars2d.window.run.menus import (
     entries_of_body,
-    entries_of_leaving,
     entries_of_place,
     entries_of_scopes,
 )
@@ -42,11 +41,13 @@ from mars2d.window.screen.picking import Selection, body_at, next_body
 from mars2d.window.screen.source import Playback, Source
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.menu import Entry
+from mars2d.window.widgets.prompt import Answer
 from mars2d.world.timeline import Timeline
 
 if TYPE_CHECKING:
     from mars2d.window.editor import Editor
 
+CHANGED = "This run was changed by hand, and is not saved."
 TYPING = (pygame.KEYDOWN, pygame.TEXTINPUT, pygame.TEXTEDITING)
 USUAL = (
     ("Space", "pause"), ("← →", "step"), ("+ \N{MINUS SIGN}", "speed"), ("F1", "help"),
@@ -83,7 +84,7 @@ class Window(PlayerWindow):
         self.game: Play | None = None  # where people play
         self.selection, painter = Selection(), self.looks.painter
         self.director = Director(self.player, self.notes, self._show_way_back)
-        self.tools = Tools(self.player, self.director, self.selection, self.notes, self.menu)
+        self.tools = Tools(self.player, self.director, self.selection, self.notes, self.prompts)
         self.dock = Panels(
             painter, self.player, self.selection, path, self.director.set, self.notes, self.saver
         )
@@ -464,6 +465,8 @@ class Window(PlayerWindow):
             self.tools.ruler.end()
         elif self.director.drives and self.game is None:
             self.director.let_go()
+        elif self.dock.impact.is_open:
+            self.dock.impact.close()
         elif self.selected is not None:
             self.select(None)
         elif self.game is not None and self.player.playing and not self.notes.failed:
@@ -479,19 +482,21 @@ class Window(PlayerWindow):
 
     def _close(self) -> None:
         """Close the window; if hands did something that would be lost, ask first, once."""
-        timeline, menu = self.director.timeline, self.menu
-        if not self.asks or timeline is None or not timeline.changed or menu.name == "leave":
+        timeline, open_one = self.director.timeline, self.prompts.prompt
+        asked = open_one is not None and open_one.label == CHANGED
+        if asked or not self.asks or timeline is None or not timeline.changed:
             super()._close()
             return
         self.editor = None
         self.player.pause()
 
-        def save() -> None:
+        def save(_: str) -> None:
             self._open = not self.saver.record(timeline.record)
 
-        entries, plot = entries_of_leaving(save, super()._close), self.layout.plot
-        corner = plot.left + plot.width // 4, plot.top + plot.height // 4
-        menu.open("leave", lambda: entries, corner)
+        leave = Answer(
+            "leave without it", lambda _: PlayerWindow._close(self), keys.LEAVE.labels[0]
+        )
+        self.prompts.ask(CHANGED, Answer("save it, and leave", save), leave, escape="stay")
 
     def _open_editor(self) -> None:
         """Open the editor on the scenario as it is now."""
@@ -504,7 +509,7 @@ class Window(PlayerWindow):
         """Close the editor, and apply its outcome."""
         self.editor = None
         self.viewpoint.look_as(editor.viewpoint)
-        self._keyboard.clear()
+        self._held.clear()
         if editor.dialogs.outcome is not None:
             self.director.apply(editor.dialogs.outcome)
 
