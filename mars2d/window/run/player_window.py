@@ -30,13 +30,14 @@ from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.player import Player, time_actions
 from mars2d.window.screen.rest import Rest
 from mars2d.window.screen.saving import Saver
-from mars2d.window.screen.source import Source
+from mars2d.window.screen.source import Source, Trio
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.actions import action_of, label_of
 from mars2d.window.widgets.help import Help
 from mars2d.window.widgets.menu import Menu
 from mars2d.window.widgets.notes import Notes
 from mars2d.window.widgets.prompt import Prompts
+from mars2d.world.timeline import Timeline
 
 NAME = 20.0
 """How far bodies are apart at the start where their names are drawn at first, points."""
@@ -155,9 +156,9 @@ class PlayerWindow(ABC):
             if self.player.speed < inf or not self.player.playing:
                 clock.tick(PICTURES_A_SECOND)
 
-    @abstractmethod
     def _pass_time(self, seconds: float) -> None:
         """Advance by seconds of the wall clock."""
+        self.player.pass_time(seconds)
 
     @property
     def _moves(self) -> bool:
@@ -178,9 +179,11 @@ class PlayerWindow(ABC):
 
     # -- waiting for a law ----------------------------------------------------------------------
 
-    @abstractmethod
     def _calls(self) -> object:
         """Return a value that changes with each call of the user's code."""
+        source = self.player.source
+        runs = source.runs.values() if isinstance(source, Trio) else [source]
+        return [run.world.simulation.calls for run in runs if isinstance(run, Timeline)]
 
     def _answer(self, where: str) -> str:
         """Answer the user while a law takes long at a line; return why to break it off, or ""."""
@@ -251,9 +254,9 @@ class PlayerWindow(ABC):
         else:
             self._point(event)
 
-    @abstractmethod
     def _take(self, event: pygame.Event) -> bool:
         """Give an event to the parts of the window; return whether one of them took it."""
+        return self.toolbar.handle(event)
 
     def _point(self, event: pygame.Event) -> None:
         """Handle an event of the mouse on the picture and the bars."""
@@ -275,9 +278,10 @@ class PlayerWindow(ABC):
 
     # -- commands -------------------------------------------------------------------------------
 
-    @abstractmethod
     def _restart(self) -> None:
         """Start again, with the file as it is now."""
+        self.notes.clear()
+        self.player.restart()
 
     @abstractmethod
     def _save_picture(self) -> None:

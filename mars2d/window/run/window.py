@@ -154,10 +154,6 @@ class Window(PlayerWindow):
 
     # -- time -----------------------------------------------------------------------------------
 
-    def _calls(self) -> object:
-        timeline = self.director.timeline
-        return None if timeline is None else timeline.world.simulation.calls
-
     def _answer(self, where: str) -> str:
         broken_off = super()._answer(where)
         if not broken_off and self._reload is not None and self._reload.waits():
@@ -408,10 +404,8 @@ class Window(PlayerWindow):
         return acts
 
     def _restart(self) -> None:
-        """Start again, with the file as it is now."""
         self.grab.cancel()
-        self.notes.clear()
-        self.player.restart()
+        super()._restart()
         if self.game is not None:
             self.dock.named("score").open()
             self.game.begin()
