@@ -134,7 +134,7 @@ class Play:
         Return whether it has just ended.
         """
         player = self._player
-        if not self.seats and player.playing:
+        if not self.seats and (player.playing or player.busy):
             player.pause()  # nobody has chosen yet
         elif self.counting:
             started = player.playing  # somebody could not wait

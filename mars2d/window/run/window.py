@@ -107,7 +107,7 @@ class Window(PlayerWindow):
             "within": partial(self._step_within, 1),
             "within_back": partial(self._step_within, -1),
             "branch": self._without_drag(self.director.other_branch),
-            "undo": self._without_drag(self.director.undo),
+            "undo": self._without_drag(self._undo),
             "scopes": lambda: self.toolbar.open("scopes", self._plots),
             "select": lambda: self.select(next_body(self.player.frame, self.selected)),
             "follow": self._follow_or_not,
@@ -247,8 +247,14 @@ class Window(PlayerWindow):
         draw_header(surface, layout, painter, frame, self._status())
         self._controls.draw(surface, layout, painter, self._pointer, self.mouse.drags)
         hints = () if self.game is not None else BY_HAND if self.director.drives else USUAL
+        if self.director.drives and not self.player.playing:
+            hints = (("Space", "go on"), *hints)
         draw_footer(surface, layout, painter, self._ending.banner(), summary(frame), hints)
         if notes:
+            if self.menu.name == "roles":
+                plate = pygame.Rect((0, 0), self.menu.size(painter))
+                plate.center = self.viewpoint.room.center
+                self.menu.corner = plate.topleft
             if self.game is not None and self.game.counting:
                 draw_countdown(surface, self.viewpoint.room, painter, self.game.counting)
             self.toolbar.draw(surface, layout, painter, self._pointer)
@@ -279,7 +285,8 @@ class Window(PlayerWindow):
             return Status("get ready", "waiting")
         if self.game is not None and self.player.playing and kind == "running":
             return Status(text, "hand")
-        if self.director.drives and kind in ("running", "waiting") and not self.player.over:
+        drives = self.director.drives and self.game is None
+        if drives and kind != "error" and not self.player.over:
             return Status(f"{text}  {self.director.status}", "hand")
         return Status(text, kind)
 
@@ -402,6 +409,12 @@ class Window(PlayerWindow):
             act()
 
         return acts
+
+    def _undo(self) -> None:
+        """Undo what was done by hand; people who play go on from there."""
+        self.director.undo()
+        if self.game is not None and self.game.seats:
+            self.game.begin()
 
     def _restart(self) -> None:
         self.grab.cancel()

@@ -212,4 +212,4 @@ def done_in(source: Source) -> Sequence[Intervention]:
     """Return what was done by hand in a run."""
     if isinstance(source, Timeline):
         return source.world.operator.log
-    return source.recorded.interventions
+    return source.record.interventions if isinstance(source, Playback) else ()

@@ -108,7 +108,7 @@ class Menu:
     ) -> None:
         """Open it at a pixel; entries: returns those of now. stays: until an entry is chosen.
 
-        One that stays is in the middle. asks: it stays, and takes all events of keys and buttons.
+        asks: it stays, and takes all events of keys and buttons.
         """
         self.name, self._entries, self.corner = name, entries, corner
         self._stays, self._asks = stays or asks, asks
@@ -301,7 +301,7 @@ class Menu:
         self._chosen = min(able, key=lambda k: abs(k - self._chosen), default=self._chosen)
         tall = bounds.height if self._docked else sum(heights[first:seen]) + 2 * pad
         self.plate = pygame.Rect(self.corner, (min(width, bounds.width), tall)).clamp(bounds)
-        if self._stays and not self._docked:
+        if self._asks:
             self.plate.center = bounds.center
         top, self._places = self.plate.top + pad, []
         for k in range(first, seen):
