@@ -8,7 +8,7 @@ processor's time counts. The game is one pursuer and one evader; both are comman
 `observe` after each step, as whoever wants to know of a capture has to. mpe2 and VMAS, with one
 environment, are timed where they are installed: pip install mpe2 vmas. A step of a vector is one of
 each of its worlds, by `VectorEnvironment` and by gymnasium's loop over environments. Resets of the
-four tasks are timed, too.
+three tasks are timed, too.
 """
 
 from __future__ import annotations

@@ -89,9 +89,14 @@ def options_in_words(options: Mapping[str, Any]) -> str:
 def parse_option(text: str) -> tuple[str, Any]:
     """Return (name, value) of a setting ``name=value`` from the command line.
 
-    The value is a Python literal, such as ``0.5``, ``True`` or ``(1, 2)``; anything else is text.
+    The value is a Python literal, such as ``0.5``, ``True`` or ``(1, 2)``, or true or false as in
+    TOML; anything else is text.
+
+    >>> parse_option("carry=true")
+    ('carry', True)
     """
     name, equals, value = text.partition("=")
+    value = {"true": "True", "false": "False"}.get(value.strip(), value)
     if not equals or not name.strip():
         raise InputError(f"--set {text}: expected NAME=VALUE, such as --set sampling_time=0.5")
     try:

@@ -264,6 +264,27 @@ def test_a_prop_that_is_pushed_off_its_middle_goes_as_by_much_finer_steps():
         assert np.linalg.norm(end_of(0.1, 1e-3) - end_of(0.001, 1e-4)) < 4e-3, name
 
 
+@each_case("sampling_time", [0.5, 0.1, 0.02])
+def test_robots_that_slide_round_each_other_stay_in_touch(sampling_time):
+    """One is pushed aside by the other: where they parted again and again they hit each other."""
+    red = Robot(pose=(-0.4, -0.0962, 0), friction=0.148)
+    drive = Unicycle(max_force=3.93, force_limited=True)
+    blue = Robot(pose=(0, 0, 0.117), friction=0.41, drive=drive)
+
+    def after(time, max_overlap):
+        world = world_of(
+            [red, blue], sampling_time=time, stop_time=2.0, max_overlap=max_overlap
+        )  # fmt: skip
+        begun = 0
+        while not world.over:
+            world.step([[0.365, 0.0], [0.0, 0.0]])
+            begun += world.contacts["began"].sum()
+        assert begun <= 3
+        return world.pose[:2]
+
+    assert np.abs(after(sampling_time, 1e-3) - after(0.005, 2e-5)).max() < 2e-3
+
+
 @each_case("sampling_time", [0.1, 0.02])
 def test_a_robot_at_a_slack_rope_follows_its_command_at_once(sampling_time):
     """The crate at the other end is pushed meanwhile, so that a solver steps both."""

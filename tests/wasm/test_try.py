@@ -18,7 +18,7 @@ CHECKOUT = Path(__file__).parents[2]
 def address(tmp_path):
     folder = os.environ.get("MARS2D_PYODIDE")
     if not folder:
-        pytest.skip("needs a folder of Pyodide in MARS2D_PYODIDE: tests/wasm/distribution.py")
+        pytest.skip("needs a folder of Pyodide in MARS2D_PYODIDE: .ci/pyodide.py")
     make = [sys.executable, CHECKOUT / "docs" / "make" / "try_it.py", tmp_path, "--pyodide", folder]
     subprocess.run(make, check=True)
     with served(tmp_path) as address:

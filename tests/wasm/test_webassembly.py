@@ -25,7 +25,7 @@ NEEDS_SHAPELY = {
     "random_walk", "round_a_pillar", "shove_and_spin", "stick_slip", "tug_of_war",
     "wall_follower", "wall_slide",
 }  # fmt: skip
-"""The examples that are left out where there is no shapely: `distribution.py` has none."""
+"""The examples that are left out where there is no shapely: `.ci/pyodide.py` has none."""
 
 SAME_DIGEST = {
     "billiards", "capture_the_flag", "corner_game", "guard_the_line", "head_on", "lion_and_man",
@@ -39,7 +39,7 @@ def said() -> list[dict[str, Any]]:
     """Return what was said in WebAssembly, a dict a line."""
     folder = os.environ.get("MARS2D_PYODIDE")
     if not folder:
-        pytest.skip("needs a folder of Pyodide in MARS2D_PYODIDE: tests/wasm/distribution.py")
+        pytest.skip("needs a folder of Pyodide in MARS2D_PYODIDE: .ci/pyodide.py")
     node = shutil.which("node")
     if node is None:
         pytest.skip("needs node: apt-get install nodejs")

@@ -14,16 +14,7 @@ import numpy as np
 import pygame
 from numpy.typing import NDArray
 
-from mars2d.core.scene import (
-    Arrow,
-    Circle,
-    Image,
-    Line,
-    Polygon,
-    Shape,
-    Text,
-    split_wake_style,
-)
+from mars2d.core.scene import Arrow, Circle, Image, Line, Polygon, Shape, Text, split_wake_style
 from mars2d.output.lines import DASHES, MARK_SPACING, arrow_outline, spaced
 from mars2d.output.raster import brushes
 from mars2d.output.raster.brushes import Draw, Enlarged, Rgba, rgba
@@ -83,22 +74,18 @@ class Painter:
         converts the colours, as for scenes; False for the theme's own.
         """
         self._shade = self.theme.shade if shaded else str
+        draws: dict[type[Shape], Callable[..., None]] = {
+            Circle: self._circle, Line: self._line, Polygon: self._polygon, Arrow: self._arrow,
+            Image: self._image,
+        }  # fmt: skip
         labels: list[Text] = []
         for shape in shapes:
             if isinstance(shape, Text) and shape.halo:
                 labels.append(shape)
             elif isinstance(shape, Text):
                 surface.fblits(self._text(shape, camera))
-            elif isinstance(shape, Circle):
-                self._circle(surface, shape, camera)
-            elif isinstance(shape, Line):
-                self._line(surface, shape, camera)
-            elif isinstance(shape, Polygon):
-                self._polygon(surface, shape, camera)
-            elif isinstance(shape, Arrow):
-                self._arrow(surface, shape, camera)
             else:
-                self._image(surface, shape, camera)
+                draws[type(shape)](surface, shape, camera)
         taken: list[pygame.Rect] = []
         for label in reversed(labels):
             lines = self._text(label, camera)

@@ -186,16 +186,6 @@ class Body(DrivenBody):
             arm += 2 * abs(self.com)
         return length(self.vx, self.vy) + arm * abs(self.spin)
 
-    def is_pushed(self) -> cython.bint:
-        """Return whether anything but its drive and the floor acted on it in the solver's step.
-
-        Impulses that are rounding errors do not count.
-        """
-        fast: cython.double = length(self.before_x, self.before_y) + self.reach * abs(
-            self.before_spin
-        )
-        return self.tied or self.pulled or self.pressure > 1e-12 * self.mass * fast
-
     def advance(self, h: cython.double) -> cython.void:
         """Move for h s as aimed, in closed form."""
         self.x += h * self.aim_x

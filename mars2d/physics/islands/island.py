@@ -407,11 +407,23 @@ class Island:
                 first: cython.double = pair.time_to_touch(h, accuracy.touch)
                 h = 0.99 * first if first < h else h
             h = pair.time_to_touch(h, self.depth_of(pair))
-            if pair.gap <= accuracy.slop and not (pair.a.is_robot and pair.b.is_robot):
-                h = min(h, max(settings.CONTACT_TURN / max(pair.turns(), 1e-300), 1e-3))
+            if pair.gap <= accuracy.slop:
+                h = min(h, max(self.turn_of(pair, few) / max(pair.turns(), 1e-300), 1e-3))
         for tie in self.ties:
             h = min(h, tie.time_to_jerk(accuracy.stretch, accuracy.joint_tolerance))
         return left / ceil(left / h - 1e-9)  # equal substeps settle best, and leave no sliver
+
+    def turn_of(self, pair: Pair, few: cython.bint) -> cython.double:
+        """Return by how much the normal of a pair in contact may turn, rad.
+
+        Two robots, whose speeds drives keep, must only stay in touch, in a crowd not even that: the
+        gap of discs opens by half of their distance times the square of that.
+        """
+        if not (pair.a.is_robot and pair.b.is_robot):
+            return settings.CONTACT_TURN
+        if few and pair.a.is_disc and pair.b.is_disc:
+            return sqrt(2 * self.accuracy.preload / pair.radii)
+        return 1e300
 
     def depth_of(self, pair: Pair) -> cython.double:
         """Return how deep a pair may be when a blow turns it.
@@ -524,7 +536,9 @@ class Island:
 
         What was not pushed by anything has moved in closed form, whatever it touches.
         """
-        pushed: cython.bint = body.is_pushed()
+        fast: cython.double = length(body.before_x, body.before_y)
+        fast += body.reach * abs(body.before_spin)  # impulses that are rounding errors do not count
+        pushed: cython.bint = body.tied or body.pulled or body.pressure > 1e-12 * body.mass * fast
         body.ahead = pushed or body.solved
         if pushed or (body.solved and body.com != 0.0):
             self.solver.share_out(body, h, body.shift)
@@ -661,7 +675,10 @@ class Island:
         if b >= 0:
             row.add_speed(self.numbers[b], 1.0)
         else:
-            b = owner_of(a, b, row.x, row.y)
+            for pair in a.wall_pairs:
+                if pair.other == b:  # a wall, which may be of several obstacles
+                    b = pair.wall.owner(row.x, row.y)
+                    break
         self.stand(row, arbiter, count, swap)
         row.add_speed(a, -1.0)
         if swap:
@@ -689,17 +706,6 @@ def touching(a: Body, b: cython.int) -> Pair | None:
     while pair is not None and pair.other != b:
         pair = pair.next_touch
     return pair
-
-
-def owner_of(a: Body, b: cython.int, x: cython.double, y: cython.double) -> cython.int:
-    """Return the number of the obstacle that a body touches where, of a wall by its number.
-
-    A wall may be of several obstacles.
-    """
-    for pair in a.wall_pairs:
-        if pair.other == b:
-            return pair.wall.owner(x, y)
-    return b
 
 
 def draw_together(pair: Pair, way: cython.double) -> cython.void:

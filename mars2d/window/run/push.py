@@ -80,8 +80,8 @@ def draw_pushes(scene: Scene, frame: Frame, pushes: Iterable[Push], camera: Came
         tip = start[0] + x / length, start[1] + y / length
         scene.arrow(start, tip, fill=FORCE, width=3.0, stroke=HALO)
         xmin, xmax, ymin, ymax = frame.scenario.bounds  # words of a long arrow stay in sight
-        place = min(max(tip[0], xmin), xmax), min(max(tip[1], ymin), ymax)
-        draw_words(scene, camera, place, f"{in_newtons(newtons)} for {push.duration:g} s")
+        tip = min(max(tip[0], xmin), xmax), min(max(tip[1], ymin), ymax)
+        draw_words(scene, camera, tip, f"{in_newtons(newtons)} for {push.duration:g} s")
 
 
 def pushed(text: str, heading: float) -> tuple[Point, float]:

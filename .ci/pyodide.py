@@ -1,6 +1,6 @@
 """Assemble a folder of Pyodide with the packages that MARS2D needs, without Pyodide's own server.
 
-    python tests/wasm/distribution.py FOLDER
+    python .ci/pyodide.py FOLDER
 
 Where that server can be reached, none of this is needed: Pyodide downloads its packages from it.
 Here they come from package indexes and from Debian. Pyodide itself, numpy, scipy and micropip are
