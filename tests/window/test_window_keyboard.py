@@ -51,7 +51,8 @@ def test_panels_are_scrolled_by_keys(open_window, tmp_path):
 
 def test_with_a_slider_in_the_hand_the_help_opens_and_escape_closes_it(open_window, pushing):
     window = open_window(0, experiment=str(pushing), text=2.2)
-    window.press("F2", "Tab", "shift+F2")
+    window.resize(1152, 720)
+    window.press("F2", "F4", "Tab", "shift+F2")
     assert "parameters" in window.settle()["panels"], "the sliders come to sight"
     window.press("F1")
     window.until(lambda s: s["help"] == 0)
