@@ -119,7 +119,7 @@ def run_and_save(
         makers: dict[str, Make] = {"record": lambda: save_record(arguments.record, record)}
         made, troubles = produced(arguments, makers)
 
-    times, end = arguments.at, float(record.time[-1])
+    times, end = arguments.at, float(record.time[-1]) if len(record) else 0.0
     if times is not None:  # the run may have ended before
         times = [*dict.fromkeys("end" if t == "end" or t > end else t for t in times)]
     makers = {

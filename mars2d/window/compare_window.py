@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 import pygame
 
-from mars2d.core.errors import Mars2dError, counted
+from mars2d.core.errors import counted
 from mars2d.core.scene import Scene
 from mars2d.output.figures.comparison import (
     COLORS,
@@ -38,7 +38,6 @@ from mars2d.window.screen.source import Trio
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.actions import Action
 from mars2d.window.widgets.plot import Limits, draw_axes, polylines
-from mars2d.world.timeline import Timeline
 
 LEFT, RIGHT, HEAD, FOOT = 72.0, 24.0, 34.0, 26.0
 """The room round the axes, points."""
@@ -167,14 +166,7 @@ class CompareWindow(PlayerWindow):
         self._leave_out_names(self._ui)
         handles = [*self._controls.handles, (self.plot.hit, self._scrub)]
         self.mouse = Mouse(self.viewpoint, handles, self._place)
-        self.toolbar = Toolbar(self._actions, self._is_on, live=True)
-
-    def _calls(self) -> object:
-        runs = self.trio.runs.values()
-        return [run.world.simulation.calls for run in runs if isinstance(run, Timeline)]
-
-    def _pass_time(self, seconds: float) -> None:
-        self.player.pass_time(seconds)
+        self.toolbar = Toolbar(self._actions, self._is_on, self.menu, live=True)
 
     # -- drawing --------------------------------------------------------------------------------
 
@@ -283,9 +275,6 @@ class CompareWindow(PlayerWindow):
 
     # -- events ---------------------------------------------------------------------------------
 
-    def _take(self, event: pygame.Event) -> bool:
-        return self.toolbar.handle(event)
-
     def _place(self, pixel: Pixel) -> Pixel | None:
         """Return where the first arena shows what one of them shows at a pixel."""
         if self.help.is_open or self.toolbar.covers(pixel):
@@ -300,14 +289,6 @@ class CompareWindow(PlayerWindow):
         self.player.go(round(at / self.trio.scenario.sampling_time))
 
     # -- commands -------------------------------------------------------------------------------
-
-    def _restart(self) -> None:
-        """Start again, with the file as it is now."""
-        self.notes.clear()
-        try:
-            self.player.restart()
-        except Mars2dError as error:  # the file can't be read
-            self.notes.say(str(error), "error")
 
     def _save_picture(self) -> None:
         """Save a picture of the three arenas and the plot."""

@@ -134,8 +134,8 @@ def of_run(window):
         "banner": None if banner is None else banner.text,
         "line": None if banner is None or banner.excerpt is None else banner.excerpt.line,
         "buttons": {name: place.center for name, place in window.toolbar.places.items()},
-        "menu": {title: at.center for title, at in window.toolbar.menu.places.items()},
-        "chosen": window.toolbar.menu.chosen,
+        "menu": {title: at.center for title, at in window.menu.places.items()},
+        "chosen": window.menu.chosen,
         "closes": {name: place.center for name, place in window.dock.closes.items()},
         "scopes": {trace.name: [*trace.bodies] for trace in window.dock.scopes.traces},
         "areas": {each.signal.name: [*each.area.move(corner)] for each in plots},
@@ -177,7 +177,6 @@ def game_of(window):
         "counting": game.counting > 0,
         "seats": [seat.robot for seat in game.seats],
         "result": None if game.result is None else game.result.words,
-        "choices": {title: at.center for title, at in window.countdown.menu.places.items()},
         "panel": [*window.dock.plates.get("score", ())],
     }
 

@@ -7,7 +7,7 @@ from mars2d import LawError, Robot, Scenario
 from mars2d.addons import Map
 from mars2d.core.scene import Circle, Line, Text
 from mars2d.scenario.experiment import Experiment
-from mars2d.window.run.controls import Controls, Marks
+from mars2d.window.run.controls import Controls
 from mars2d.window.run.ghosts import ghosts
 from mars2d.window.screen.player import Player
 from mars2d.window.screen.source import Playback
@@ -84,16 +84,20 @@ def test_after_its_end_a_branch_stays_there_and_says_so():
     assert text == "branch from 10 s, over at 12.5 s"
 
 
+def marks(source):
+    return Controls(Player(source, 1.0), source).time_state().marks
+
+
 def test_marks_of_hands_branches_and_collisions():
     timeline = timeline_of(addons=[Map([[(1.0, -1.0), (1.0, 1.0)]])])
-    assert Marks(timeline).rows() == {"collision": [], "hand": [], "branch": [], "error": []}
+    assert marks(timeline) == {"collision": [], "hand": [], "branch": [], "error": []}
     run_to(timeline, 40)
     record = timeline.record
     touched = record.contacts["time"][record.contacts["began"]]
     assert len(touched) == 1
     timeline.go(30)
     timeline.change(lambda w: w.operator.place(1, (3.0, 3.0, 0.0)))
-    rows = Marks(timeline).rows()
+    rows = marks(timeline)
     assert rows["collision"] == [int(np.ceil(touched[0] / 0.5))]
     assert rows["hand"] == [30]
     assert rows["branch"] == [30]
@@ -104,7 +108,7 @@ def test_a_recording_has_the_marks_that_its_run_had():
     run_to(timeline, 30)
     timeline.change(lambda w: w.operator.place(1, (3.0, 3.0, 0.0)))
     run_to(timeline, 40)
-    ran = Marks(timeline).rows()
+    ran = marks(timeline)
     player = Player(Playback(timeline.record), 1.0)
     player.go(20)
     shown = Controls(player, player.source).time_state()
@@ -124,4 +128,4 @@ def test_the_row_at_which_a_law_failed_is_marked():
     timeline = timeline_of(law=law)
     with pytest.raises(LawError):
         run_to(timeline, 40)
-    assert Marks(timeline).rows()["error"] == [10]
+    assert marks(timeline)["error"] == [10]

@@ -36,6 +36,8 @@ def test_the_keys_of_contacts_open_the_card_of_what_the_touch_did(live):
     assert table["energy lost [J]"] == ["0.375", "-0.375", "0"]
     assert table["momentum before [N s]"] == table["momentum after"] == ["", "", "(1, 0)"]
     assert table["restitution"] == ["", "", "1"]
+    window._escape()
+    assert not window.dock.impact.is_open
     window._actions["contact_back"]()
     assert window.dock.impact._cards(window.player.frame) == []
     window.draw(surface)

@@ -107,7 +107,7 @@ def faults_of_run(timeline, size, text):
     plot = shown.layout.plot
     if plot.width * plot.height < LEAST * size[0] * size[1]:
         yield "the arena has too little of the picture"
-    if not plot.contains(shown.countdown.menu.plate):
+    if not plot.contains(shown.menu.plate):
         yield "the roles lie beyond the arena"
     yield from unfit([*shown.toolbar.places.items(), ("the arena", plot)], surface.get_rect())
 

@@ -186,12 +186,12 @@ def play(open_window):
 def test_a_role_is_chosen_counted_down_and_driven(play, way):
     person = play(1.0, "corner_game")
     assert person.state["game"]["seats"] == []
-    person.press("space")  # begins nothing yet
+    person.press("space", "n")  # begin nothing yet
     assert person.settle()["time"] == 0
     if way == "number":
         person.press("2")
     else:
-        person.do("mousemove", *person.state["game"]["choices"]["evader"], "click", 1)
+        person.do("mousemove", *person.state["menu"]["evader"], "click", 1)
     person.until(lambda s: s["game"]["seats"] == [1] and s["game"]["counting"])
     assert person.state["time"] == 0
     person.until(lambda s: not s["game"]["counting"] and s["time"] > 0)
@@ -199,6 +199,8 @@ def test_a_role_is_chosen_counted_down_and_driven(play, way):
     person.do("keydown", "Right")
     person.until(lambda s: s["robots"][1][0] > before[0] + 0.3)
     person.do("keyup", "Right")
+    person.press("ctrl+z")  # who plays goes on playing
+    person.until(lambda s: s["game"]["counting"] and s["driving"] == 1)
 
 
 def test_space_starts_at_once_and_escape_pauses(play):

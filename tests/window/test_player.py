@@ -9,6 +9,7 @@ import pytest
 from mars2d.core.errors import LawError
 from mars2d.window.run import keys
 from mars2d.window.screen.player import SPEEDS, Player, between
+from mars2d.window.widgets.actions import action_of
 from tests.cases import each_case
 from tests.window.circling import Circling, circling_scenario
 
@@ -171,7 +172,7 @@ def test_every_key_has_its_own_command():
 def pressed(name, character, mod=0):
     code = pygame.key.key_code(name)
     event = pygame.Event(pygame.KEYDOWN, key=code, unicode=character, mod=mod)
-    action = keys.Keyboard().press(event)
+    action = action_of(event, keys.ACTIONS)
     return None if action is None else action.name
 
 

@@ -136,16 +136,16 @@ def test_before_a_run_changed_by_hand_is_lost_the_window_asks(open_window, room,
     window.press("Right")
     window.until(lambda s: s["row"] == 1)
     assert window.state["selected"] is None
-    for stay in ("Escape", "Stay"):
+    for stay in ("Escape", "stay"):
         window.press("ctrl+q")
-        window.until(lambda s: "Stay" in s["menu"])
-        if stay == "Stay":
-            choose(window, "Stay")
+        window.until(lambda s: "stay" in s["menu"])
+        if stay == "stay":
+            choose(window, "stay")
         else:
             window.press("Escape")
         window.until(lambda s: not s["menu"])
     window.press("ctrl+q")
-    choose(window, "Save it, and leave")
+    choose(window, "save it, and leave")
     window.until(lambda s: s.get("left"))
     (saved,) = tmp_path.glob("*.npz")
     record = load(saved)

@@ -6,7 +6,7 @@ def test_a_menu_opens_on_what_is_selected_or_on_the_floor(open_window, room):
     window.press("F10")
     assert "Show all" in window.settle()["menu"]
     window.press("Escape", "Tab", "Tab", "Tab", "F10")
-    menu = window.shown.toolbar.menu
+    menu = window.shown.menu
     window.type("f")  # by its first letter
     assert menu.chosen == "Follow with the camera"
     window.press("Return")
@@ -51,8 +51,9 @@ def test_panels_are_scrolled_by_keys(open_window, tmp_path):
 
 def test_with_a_slider_in_the_hand_the_help_opens_and_escape_closes_it(open_window, pushing):
     window = open_window(0, experiment=str(pushing), text=2.2)
-    window.press("F2", "Tab", "shift+F2")
-    assert "parameters" not in window.shown.dock._folded, "the sliders come to sight"
+    window.resize(1152, 720)
+    window.press("F2", "F4", "Tab", "shift+F2")
+    assert "parameters" in window.settle()["panels"], "the sliders come to sight"
     window.press("F1")
     window.until(lambda s: s["help"] == 0)
     window.press("Escape")

@@ -56,7 +56,7 @@ def test_by_keys_alone_a_push_is_typed_and_a_mistake_is_said_in_place(open_windo
     window.press("w")
     window.says("Tab selects what is pushed")
     window.press("space", "Tab", "Tab", "Tab", "w")
-    prompts = window.shown.tools.prompts
+    prompts = window.shown.prompts
     assert prompts.prompt.text.endswith("N for 0.5 s at 0°")
     window.press("ctrl+a")
     window.type("much")

@@ -9,7 +9,7 @@ from time import perf_counter
 
 import pygame
 
-from mars2d.core.scene import Shape
+from mars2d.core.scene import Shape, Text
 from mars2d.output.layers.bodies import starts
 from mars2d.output.layers.legend import legends
 from mars2d.output.layers.table import FIRST_BODIES, LAST_BODIES, LAYERS, Layers, standing
@@ -123,12 +123,14 @@ class Stage:
         seen = {layer.name for layer in layers.seen(frame.scenario.animation)}
         seen -= {layer.name for layer in standing()} | ({"trails"} if canvas.wakes else set())
         shapes: list[Shape] = []
+        words = [mark for mark in marks if isinstance(mark, Text)]
+        others = [mark for mark in marks if not isinstance(mark, Text)]
         for layer in LAYERS:
             shapes += beneath if layer.name == FIRST_BODIES else ()
             if layer.name in seen and layer.shapes is not None:
                 shapes += layer.shapes(frame).shapes
-            shapes += marks if layer.name == LAST_BODIES else ()
-        paint(surface, shapes, camera)
+            shapes += others if layer.name == LAST_BODIES else ()
+        paint(surface, [*shapes, *words], camera)  # no other label stands before those words
         if layers.grid:
             bounds = grid_bounds(frame.scenario, camera, surface.get_size())
             numbers = labels(plot, camera, bounds, self.painter)

@@ -13,7 +13,7 @@ from mars2d.output.layers.table import Layers
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.stage import Stage
 from mars2d.record.frame import Frame
-from mars2d.record.interventions import Intervention, pushes_at
+from mars2d.record.interventions import pushes_at
 from mars2d.window.run.drags import GOOD, draw_ring
 from mars2d.window.run.ghosts import ghosts
 from mars2d.window.run.grab import Grab
@@ -21,7 +21,7 @@ from mars2d.window.run.heat import AGAIN, MOST, heat, squeezes
 from mars2d.window.run.push import draw_pushes
 from mars2d.window.run.tools import Ruler
 from mars2d.window.screen.picking import Selection, sensed_by
-from mars2d.window.screen.source import Playback, Source
+from mars2d.window.screen.source import Source, done_in
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.world.timeline import Timeline
 
@@ -57,7 +57,7 @@ class Arena:
         if selected is not None:
             draw_ring(marks, frame, selected, GOOD, 2.5, 10.0)
         marks.shapes += self._grab.marks(frame, named=layers.names, more=more)
-        pushes = pushes_at(self._done(), frame.time, frame.scenario.sampling_time)
+        pushes = pushes_at(done_in(self._source), frame.time, frame.scenario.sampling_time)
         draw_pushes(marks, frame, pushes, viewpoint.camera)
         self._ruler.draw(marks, frame, viewpoint.camera, pointer)
         source = self._source
@@ -72,10 +72,3 @@ class Arena:
             marks=marks.shapes,
             hurried=viewpoint.hurried,
         )
-
-    def _done(self) -> Sequence[Intervention]:
-        """Return what was done by hand in the run."""
-        source = self._source
-        if isinstance(source, Timeline):
-            return source.world.operator.log
-        return source.record.interventions if isinstance(source, Playback) else ()

@@ -9,11 +9,11 @@ import pygame
 
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
-from mars2d.record.marks import MarkKind, marks_of, meetings
+from mars2d.record.marks import MarkKind, meetings
 from mars2d.window.run.mouse import Handle, Pixel
 from mars2d.window.run.timebar import TimeBar, TimeState
 from mars2d.window.screen.player import SPEEDS, Player
-from mars2d.window.screen.source import Playback, Source
+from mars2d.window.screen.source import Playback, Source, done_in
 from mars2d.window.widgets.slider import SpeedSlider
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
@@ -30,9 +30,9 @@ class Controls:
 
     def __init__(self, player: Player, marked: Source) -> None:
         """Start with nothing drawn; marked: the source whose events are marked."""
-        self._player = player
-        known = marks_of(marked.record) if isinstance(marked, Playback) else {}  # they stay
-        self._marks = Marks(marked).rows if isinstance(marked, Timeline) else lambda: known
+        self._player, self._marked = player, marked
+        self._read: tuple[object, float] = None, 0.0  # the run whose contacts were read, and when
+        self._touched: list[int] = []
         self.time_bar, self.slider = TimeBar(), SpeedSlider(SPEEDS)
         self.handles: list[Handle] = [
             (self.time_bar.hit, self._scrub),
@@ -83,6 +83,20 @@ class Controls:
             live=live,
         )
 
+    def _marks(self) -> Mapping[MarkKind, Sequence[int]]:
+        """Return the rows of each kind in ascending order; collisions may lag by a moment."""
+        source, now = self._marked, time.monotonic()
+        run = source.world if isinstance(source, Timeline) else source
+        if run is not self._read[0] or now >= self._read[1] + MARK_INTERVAL:
+            self._read = run, now
+            self._touched = meetings(source.contacts, source.scenario.sampling_time)
+        marks: dict[MarkKind, Sequence[int]] = {"collision": self._touched}
+        marks["hand"] = sorted({each.row for each in done_in(source)})
+        if isinstance(run, World) and isinstance(source, Timeline):
+            marks["branch"] = sorted({source.parted(other) for other in source.branches})
+            marks["error"] = [run.iteration] if run.over and not run.finished else []
+        return marks
+
     def _scrub(self, pixel: Pixel) -> None:
         """Go to the row at a pixel of the time bar."""
         row = self.time_bar.row_at(pixel[0])
@@ -94,27 +108,3 @@ class Controls:
         speed = self.slider.speed_at(pixel[0])
         if speed != self._player.speed:
             self._player.set_speed(speed)
-
-
-class Marks:
-    """The rows of a run with collisions, interventions, branches and errors."""
-
-    def __init__(self, timeline: Timeline) -> None:
-        """Start with nothing read."""
-        self._timeline = timeline
-        self._world: World | None = None
-        self._next = 0.0
-        self._touched: list[int] = []
-
-    def rows(self) -> Mapping[MarkKind, Sequence[int]]:
-        """Return the rows of each kind in ascending order; collisions may lag by a moment."""
-        timeline, world, now = self._timeline, self._timeline.world, time.monotonic()
-        if world is not self._world or now >= self._next:
-            self._world, self._next = world, now + MARK_INTERVAL
-            self._touched = meetings(timeline.contacts, world.sampling_time)
-        return {
-            "collision": self._touched,
-            "hand": sorted({each.row for each in world.operator.log}),
-            "branch": sorted({timeline.parted(other) for other in timeline.branches}),
-            "error": [world.iteration] if world.over and not world.finished else [],
-        }

@@ -6,11 +6,9 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
-import pygame
-
 from mars2d.output.controls import CONTROLS, PAUSE
 from mars2d.output.layers.table import LAYERS
-from mars2d.window.widgets.actions import Action, action_of
+from mars2d.window.widgets.actions import Action
 
 
 def _action(name: str, label: str, does: str, *also: str, repeats: bool = False) -> Action:
@@ -41,15 +39,10 @@ TIME = (
 )
 
 _SEE = (
-    _action("grid", "G", "grid on and off"),
-    _action("trails", "T", "trails on and off"),
     _action("sensors", "S", "sensors on and off; if a robot is selected, only its own"),
     _action("messages", "M", "messages between robots on and off"),
     _action("forces", "X", "contacts, forces and slipping on and off"),
     _action("theory", "Y", "theoretical predictions on and off"),
-    _action("addons", "O", "drawings of add-ons on and off"),
-    _action("names", "I", "names on and off"),
-    _action("velocities", "U", "velocities on and off"),
     _action("layers", "A", "choose layers"),
     _action("scopes", "Q", "choose plots over time"),
     _action("predictions", "F3", "predictions and measurements on and off"),
@@ -71,12 +64,12 @@ _SEE = (
     _action("text", "Z", "size of text and lines: for the back row"),
 )
 SEE = (
-    *_SEE,
     *(
         _action(layer.name, layer.key.upper(), f"{layer.title.lower()} on and off")
         for layer in LAYERS
         if layer.key and layer.name not in {each.name for each in _SEE}
     ),
+    *_SEE,
 )
 
 LEAVE = _action("leave", "Ctrl Q", "close the window", "Ctrl W")
@@ -149,26 +142,3 @@ def bound(
     """Return the actions of some names with their effects; on: whether one's setting is on."""
     known = {action.name: action for action in table}
     return [replace(known[name], act=acts[name], on=partial(on, name)) for name in names]
-
-
-class Keyboard:
-    """Turns pressed keys into actions; a key that is held repeats those that may be repeated."""
-
-    def __init__(self) -> None:
-        """Start with no key held."""
-        self._held: set[int] = set()
-
-    def press(self, event: pygame.Event) -> Action | None:
-        """Press a key; return its action, or None."""
-        held = event.key in self._held
-        self._held.add(event.key)
-        action = action_of(event, ACTIONS)
-        return action if action is not None and (action.repeats or not held) else None
-
-    def release(self, code: int) -> None:
-        """Release a key."""
-        self._held.discard(code)
-
-    def clear(self) -> None:
-        """Release all keys."""
-        self._held.clear()

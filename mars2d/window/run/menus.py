@@ -73,16 +73,6 @@ def entries_of_place(
     ]
 
 
-def entries_of_leaving(save: Callable[[], None], leave: Callable[[], None]) -> list[Entry]:
-    """Return what can be done with a run in which hands did something, before it is gone."""
-    return [
-        Entry("This run was changed by hand, and is not saved"),
-        Entry("Save it, and leave", save),
-        Entry("Leave without it", leave, key_of("leave")),
-        Entry("Stay", lambda: None, "Esc"),
-    ]
-
-
 def entries_of_scopes(
     frame: Frame, body: int | None, scopes: Scopes, actions: Actions
 ) -> list[Entry]:
@@ -94,11 +84,12 @@ def entries_of_scopes(
     def entry(title: str, what: What, of: tuple[int, ...]) -> Entry:
         return Entry(title, partial(scopes.switch, what, of), "", scopes.shows(what, of))
 
-    entries = [*entries_of(["figure"] if scopes.is_open else [], actions), Entry(who)]
+    entries = [Entry(who)]
     entries += [entry(title, what, bodies) for title, what in _columns(frame, body).items()]
     entries.append(Entry("All bodies"))
     entries += [entry(title, what, ()) for title, what in OF_ALL.items()]
-    return entries + [entry(name_of(each), each, ()) for each in scopes.functions]
+    entries += [entry(name_of(each), each, ()) for each in scopes.functions]
+    return entries + entries_of(["figure"] if scopes.is_open else [], actions)  # others stay put
 
 
 def _columns(frame: Frame, body: int | None) -> dict[str, str]:

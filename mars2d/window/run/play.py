@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import pygame
 
 from mars2d.addons.contest import Contest, wins
 from mars2d.bodies.drives.base import Drive
@@ -14,6 +15,7 @@ from mars2d.record.frame import Frame
 from mars2d.record.interventions import Steer
 from mars2d.scenario.law_reference import Reference
 from mars2d.scenario.roles import contests_of, role_of, roles_of
+from mars2d.scenario.scenario import Scenario
 from mars2d.window.run.director import Director
 from mars2d.window.run.driver import Driver
 from mars2d.window.screen.player import Player
@@ -72,32 +74,36 @@ class Play:
     # -- who plays ----------------------------------------------------------------------------
 
     @property
+    def scenario(self) -> Scenario:
+        """What is played."""
+        return self._player.source.scenario
+
+    @property
     def contest(self) -> Contest | None:
         """What decides who has won; None where nobody does."""
-        return next(iter(contests_of(self._player.source.scenario)), None)
+        return next(iter(contests_of(self.scenario)), None)
 
     @property
     def choices(self) -> list[Choice]:
         """The roles that one person may play, and then both for two people."""
-        roles = roles_of(self._player.source.scenario)
+        roles = roles_of(self.scenario)
         alone = [Choice(k, role, team[:1]) for k, (role, team) in enumerate(roles.items(), 1)]
         if len(alone) != 2:
             return alone
         both = tuple(team[0] for team in roles.values())
         return [*alone, Choice(3, "two people", both)]
 
-    @property
-    def choosing(self) -> bool:
-        """Whether roles can be chosen now: before anything has begun, and when all is over."""
-        return not self.seats or self.result is not None
+    def handle(self, event: pygame.Event) -> bool:
+        """Handle the key of a number at the end; return whether it was taken."""
+        number = event.type == pygame.KEYDOWN and self.result is not None
+        return number and event.unicode.isdecimal() and self.choose(int(event.unicode))
 
     def choose(self, number: int) -> bool:
-        """Begin with the roles of a number, or `NEXT`; return whether it is time for it."""
+        """Begin with the roles of a number, or `NEXT`; return whether there is such a number."""
         robots = {each.number: each.robots for each in self.choices}.get(number, ())
-        goes_on = number == NEXT and self.result is not None
-        if not (robots or goes_on) or not self.choosing:
+        if not robots and number != NEXT:
             return False
-        if goes_on:
+        if number == NEXT:
             self._director.next_start()
         elif self._player.source.newest:
             self._player.restart()
@@ -107,7 +113,7 @@ class Play:
     def begin(self, robots: Sequence[int] = ()) -> None:
         """Seat people at robots, or where they sat before, and count down."""
         robots = robots or [seat.robot for seat in self.seats]
-        scenario = self._player.source.scenario
+        scenario = self.scenario
         self._director.seat(robots)
         self.seats = tuple(
             Seat(robot, role_of(scenario, robot), _live_keys(scenario.robots[robot].drive, driver))
@@ -128,7 +134,7 @@ class Play:
         Return whether it has just ended.
         """
         player = self._player
-        if not self.seats and player.playing:
+        if not self.seats and (player.playing or player.busy):
             player.pause()  # nobody has chosen yet
         elif self.counting:
             started = player.playing  # somebody could not wait
@@ -213,12 +219,11 @@ class Play:
 
     def played_by(self, role: str) -> str:
         """Return who plays a role, in words: a person, or the name of a law."""
-        scenario = self._player.source.scenario
-        team = roles_of(scenario)[role]
+        team = roles_of(self.scenario)[role]
         people = [seat for seat in self.seats if seat.robot in team]
         if people:
             return "you" if len(self.seats) == 1 else f"person {self.seats.index(people[0]) + 1}"
-        laws = {Reference.of(scenario.robots[robot].controller) for robot in team}
+        laws = {Reference.of(self.scenario.robots[robot].controller) for robot in team}
         found = [Path(law.file).stem for law in laws if law is not None]
         return found[0] if len(found) == 1 else "its law"
 

@@ -30,11 +30,14 @@ from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.player import Player, time_actions
 from mars2d.window.screen.rest import Rest
 from mars2d.window.screen.saving import Saver
-from mars2d.window.screen.source import Source
+from mars2d.window.screen.source import Source, Trio
 from mars2d.window.screen.viewpoint import Viewpoint
-from mars2d.window.widgets.actions import label_of
+from mars2d.window.widgets.actions import action_of, label_of
 from mars2d.window.widgets.help import Help
+from mars2d.window.widgets.menu import Menu
 from mars2d.window.widgets.notes import Notes
+from mars2d.window.widgets.prompt import Prompts
+from mars2d.world.timeline import Timeline
 
 NAME = 20.0
 """How far bodies are apart at the start where their names are drawn at first, points."""
@@ -70,12 +73,13 @@ class PlayerWindow(ABC):
         """Prepare; the window opens with `run`. marked: whose events the time bar marks."""
         self.player, self.size, self.title = Player(source, speed), size, f"{title} - MARS2D"
         self.layers = Layers.of(source.scenario.animation)
-        self.help, self.notes = Help(), Notes()
+        self.help, self.notes, self.menu = Help(), Notes(), Menu()
+        self.prompts = Prompts(self.menu)
         self.looks = Looks(preferences, self.notes.say)
         self.saver = Saver(self.notes, stem)
         self._controls = Controls(self.player, marked or source)
         self._ending = Ending(self.player)
-        self._keyboard, self._rest = keys.Keyboard(), Rest()
+        self._held, self._rest = set[int](), Rest()  # keys; a held one repeats few actions
         self._open = False
         self._passing = False  # whether laws may be asked
         self._limit = Deadline(patience(), give_up, self._calls, self._answer)
@@ -152,9 +156,9 @@ class PlayerWindow(ABC):
             if self.player.speed < inf or not self.player.playing:
                 clock.tick(PICTURES_A_SECOND)
 
-    @abstractmethod
     def _pass_time(self, seconds: float) -> None:
         """Advance by seconds of the wall clock."""
+        self.player.pass_time(seconds)
 
     @property
     def _moves(self) -> bool:
@@ -175,9 +179,11 @@ class PlayerWindow(ABC):
 
     # -- waiting for a law ----------------------------------------------------------------------
 
-    @abstractmethod
     def _calls(self) -> object:
         """Return a value that changes with each call of the user's code."""
+        source = self.player.source
+        runs = source.runs.values() if isinstance(source, Trio) else [source]
+        return [run.world.simulation.calls for run in runs if isinstance(run, Timeline)]
 
     def _answer(self, where: str) -> str:
         """Answer the user while a law takes long at a line; return why to break it off, or ""."""
@@ -242,38 +248,40 @@ class PlayerWindow(ABC):
         elif event.type == pygame.KEYDOWN:
             self._press(event)
         elif event.type == pygame.KEYUP:
-            self._keyboard.release(event.key)
+            self._held.discard(event.key)
         elif event.type == pygame.WINDOWFOCUSLOST:
-            self._keyboard.clear()
+            self._held.clear()
         else:
             self._point(event)
 
-    @abstractmethod
     def _take(self, event: pygame.Event) -> bool:
         """Give an event to the parts of the window; return whether one of them took it."""
+        return self.toolbar.handle(event)
 
     def _point(self, event: pygame.Event) -> None:
         """Handle an event of the mouse on the picture and the bars."""
         self.mouse.handle(event)
 
     def _press(self, event: pygame.Event) -> None:
-        action = self._keyboard.press(event)
-        if action is not None and action.name in self._actions:
+        action, held = action_of(event, keys.ACTIONS), event.key in self._held
+        self._held.add(event.key)
+        if action is not None and action.name in self._actions and (action.repeats or not held):
             self._actions[action.name]()
 
     def _is_on(self, action: str) -> bool:
         """Return whether the setting that a button switches is on."""
         return {
             "pause": self.player.playing,
-            "layers": self.toolbar.menu.name == "layers",
+            "layers": self.menu.name == "layers",
             "help": self.help.is_open,
         }.get(action, self.looks.is_on(action))
 
     # -- commands -------------------------------------------------------------------------------
 
-    @abstractmethod
     def _restart(self) -> None:
         """Start again, with the file as it is now."""
+        self.notes.clear()
+        self.player.restart()
 
     @abstractmethod
     def _save_picture(self) -> None:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-import numpy as np
 import pygame
 
 from mars2d.core.plane import grid_step
@@ -159,18 +158,8 @@ class TimeBar(Slider):
             height = (below if mark.below else above) + long - top
             wide = thick * (2 if kind == "error" else 1)
             color = mark.color(painter.theme)
-            for x, width in self._stretches(state.marks.get(kind, ()), wide):
-                surface.fill(color, (x, top, width, height))
-
-    def _stretches(self, rows: Sequence[int], thick: int) -> Iterator[tuple[int, int]]:
-        """Yield runs of columns of pixels with events, each as its first pixel and its width.
-
-        thick: the width of a tick, pixels.
-        """
-        columns = np.unique([round(self.x_of(row)) for row in rows]).astype(int)
-        for each in np.split(columns, np.flatnonzero(np.diff(columns) > thick) + 1):
-            if len(each):
-                yield int(each[0]) - thick // 2, int(each[-1] - each[0]) + thick
+            for x in {round(self.x_of(row)) for row in state.marks.get(kind, ())}:
+                surface.fill(color, (x - wide // 2, top, wide, height))
 
     def _handle(
         self, surface: pygame.Surface, painter: Painter, state: TimeState, *, lifted: bool

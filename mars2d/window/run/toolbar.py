@@ -23,13 +23,15 @@ LOOK = ("screen", "dark", "text", "help", "leave")
 
 
 class Toolbar:
-    """All buttons of the window, and the menu that the last click has opened.
+    """All buttons of the window, and its menu.
 
     live: whether the run can be changed; a recording can't. lit: whether what a button switches is
     on.
     """
 
-    def __init__(self, actions: Actions, lit: Callable[[str], bool], *, live: bool) -> None:
+    def __init__(
+        self, actions: Actions, lit: Callable[[str], bool], menu: Menu, *, live: bool
+    ) -> None:
         """Start with nothing drawn."""
         offered = [SEE, CHANGE if live else (), SAVE, LOOK]
         groups = [[name for name in group if name in actions] for group in offered]
@@ -37,7 +39,7 @@ class Toolbar:
             Buttons([bound(group, actions, lit) for group in some if group])
             for some in (TRANSPORT, groups)
         ]
-        self.menu = Menu()
+        self.menu = menu
 
     @property
     def places(self) -> dict[str, pygame.Rect]:

@@ -17,7 +17,6 @@ from mars2d.window.run.drags import GOOD, HALO, LABEL
 from mars2d.window.run.push import EXPECTED, pushed, suggested
 from mars2d.window.screen.picking import Selection
 from mars2d.window.screen.player import Player
-from mars2d.window.widgets.menu import Menu
 from mars2d.window.widgets.notes import Notes
 from mars2d.window.widgets.prompt import Answer, Prompts
 from mars2d.world.operator import forceless
@@ -101,17 +100,21 @@ class Stopwatch:
 class Tools:
     """The tools of a run window.
 
-    actions: what takes them up, by name. menu: where they ask.
+    actions: what takes them up, by name.
     """
 
     def __init__(
-        self, player: Player, director: Director, selection: Selection, notes: Notes
+        self,
+        player: Player,
+        director: Director,
+        selection: Selection,
+        notes: Notes,
+        prompts: Prompts,
     ) -> None:
         """Put all of them away."""
-        self.ruler, self.stopwatch, self.menu = Ruler(), Stopwatch(), Menu()
-        self.prompts = Prompts(self.menu)
+        self.ruler, self.stopwatch = Ruler(), Stopwatch()
         self._player, self._director = player, director
-        self._selection, self._notes = selection, notes
+        self._selection, self._notes, self._prompts = selection, notes, prompts
         self.actions: dict[str, Callable[[], None]] = {
             "ruler": self._measure_or_not,
             "stopwatch": lambda: self.stopwatch.press(player.frame.time),
@@ -149,4 +152,4 @@ class Tools:
                     self._notes.say(f"a push of {text.strip()}")
 
             name, answer = frame.scenario.bodies[body].name, Answer("push", push)
-            self.prompts.ask(f"Push {name}", answer, text=suggested(frame, body), doc=EXPECTED)
+            self._prompts.ask(f"Push {name}", answer, text=suggested(frame, body), doc=EXPECTED)

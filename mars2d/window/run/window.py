@@ -20,12 +20,11 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.window.panels.panels import Panels
 from mars2d.window.run import keys
 from mars2d.window.run.arena import Arena
-from mars2d.window.run.countdown import Countdown
+from mars2d.window.run.countdown import draw_countdown, entries_of_roles
 from mars2d.window.run.director import Director
 from mars2d.window.run.grab import CLICK, Grab
 from mars2d.window.run.menus import (
     entries_of_body,
-    entries_of_leaving,
     entries_of_place,
     entries_of_scopes,
 )
@@ -41,11 +40,13 @@ from mars2d.window.screen.picking import Selection, body_at, next_body
 from mars2d.window.screen.source import Playback, Source
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.menu import Entry
+from mars2d.window.widgets.prompt import Answer
 from mars2d.world.timeline import Timeline
 
 if TYPE_CHECKING:
     from mars2d.window.editor import Editor
 
+CHANGED = "This run was changed by hand, and is not saved."
 TYPING = (pygame.KEYDOWN, pygame.TEXTINPUT, pygame.TEXTEDITING)
 USUAL = (
     ("Space", "pause"), ("← →", "step"), ("+ \N{MINUS SIGN}", "speed"), ("F1", "help"),
@@ -80,10 +81,9 @@ class Window(PlayerWindow):
         self.asks = False  # before a run is lost that can't just be run again
         self.editor: Editor | None = None
         self.game: Play | None = None  # where people play
-        self.countdown: Countdown | None = None
         self.selection, painter = Selection(), self.looks.painter
         self.director = Director(self.player, self.notes, self._show_way_back)
-        self.tools = Tools(self.player, self.director, self.selection, self.notes)
+        self.tools = Tools(self.player, self.director, self.selection, self.notes, self.prompts)
         self.dock = Panels(
             painter, self.player, self.selection, path, self.director.set, self.notes, self.saver
         )
@@ -106,7 +106,7 @@ class Window(PlayerWindow):
             "within": partial(self._step_within, 1),
             "within_back": partial(self._step_within, -1),
             "branch": self._without_drag(self.director.other_branch),
-            "undo": self._without_drag(self.director.undo),
+            "undo": self._without_drag(self._undo),
             "scopes": lambda: self.toolbar.open("scopes", self._plots),
             "select": lambda: self.select(next_body(self.player.frame, self.selected)),
             "follow": self._follow_or_not,
@@ -118,7 +118,7 @@ class Window(PlayerWindow):
             **self.dock.actions,
         }
         acts = {name: act for name, act in self._actions.items() if name not in self.dock.lacking}
-        self.toolbar = Toolbar(acts, self._is_on, live=timeline is not None)
+        self.toolbar = Toolbar(acts, self._is_on, self.menu, live=timeline is not None)
 
     @property
     def selected(self) -> int | None:
@@ -143,15 +143,15 @@ class Window(PlayerWindow):
         """Make it a game, with people at these robots, or with roles that they choose."""
         self.game = Play(self.player, self.director)
         self._ending.of_game = True
-        self.countdown = Countdown(self.looks.painter, self.game)
         self.dock.panels = [*self.dock.panels, ScorePanel(self.looks.painter, self.game)]
         self.game.begin(robots)
+        if not self.game.seats:
+            self._offer_roles(self.game)
+
+    def _offer_roles(self, game: Play) -> None:
+        self.menu.open("roles", partial(entries_of_roles, game), (0, 0), stays=True)
 
     # -- time -----------------------------------------------------------------------------------
-
-    def _calls(self) -> object:
-        timeline = self.director.timeline
-        return None if timeline is None else timeline.world.simulation.calls
 
     def _answer(self, where: str) -> str:
         broken_off = super()._answer(where)
@@ -172,8 +172,11 @@ class Window(PlayerWindow):
             return
         self._read_again()
         self._meet()
-        if self.game is not None and self.game.pass_time(seconds):
-            self._rest.stir()
+        if self.game is not None:
+            if self.game.pass_time(seconds):
+                self._rest.stir()
+            if not (self.game.seats or self.menu.is_open):
+                self._offer_roles(self.game)
         self.director.steer(seconds)
         self.grab.tick()
         self.dock.parameters.tick()
@@ -242,12 +245,17 @@ class Window(PlayerWindow):
         draw_header(surface, layout, painter, frame, self._status())
         self._controls.draw(surface, layout, painter, self._pointer, self.mouse.drags)
         hints = () if self.game is not None else BY_HAND if self.director.drives else USUAL
+        if self.director.drives and not self.player.playing:
+            hints = (("Space", "go on"), *hints)
         draw_footer(surface, layout, painter, self._ending.banner(), summary(frame), hints)
         if notes:
-            if self.countdown is not None:
-                self.countdown.draw(surface, self.viewpoint.room, layout.plot, frame.scenario)
+            if self.menu.name == "roles":
+                plate = pygame.Rect((0, 0), self.menu.size(painter))
+                plate.center = self.viewpoint.room.center
+                self.menu.corner = plate.topleft
+            if self.game is not None and self.game.counting:
+                draw_countdown(surface, self.viewpoint.room, painter, self.game.counting)
             self.toolbar.draw(surface, layout, painter, self._pointer)
-            self.tools.menu.draw(surface, layout.plot, painter)
         self.help.draw(surface, layout, painter, keys.GROUPS.items())
 
     def _draw_notes(self, surface: pygame.Surface) -> None:
@@ -276,7 +284,8 @@ class Window(PlayerWindow):
             return Status("get ready", "waiting")
         if self.game is not None and self.player.playing and kind == "running":
             return Status(text, "hand")
-        if self.director.drives and kind in ("running", "waiting") and not self.player.over:
+        drives = self.director.drives and self.game is None
+        if drives and kind != "error" and not self.player.over:
             return Status(f"{text}  {self.director.status}", "hand")
         return Status(text, kind)
 
@@ -310,19 +319,18 @@ class Window(PlayerWindow):
     # -- events ---------------------------------------------------------------------------------
 
     def _take(self, event: pygame.Event) -> bool:
-        if self.tools.menu.handle(event):
+        if self.editor is None and self.menu.is_open and self.toolbar.handle(event):
             return True
-        over = self.editor is None and self.toolbar.menu.is_open and self.toolbar.handle(event)
-        if not over and self.director.handle(event):
+        if self.director.handle(event):
             return True
         if self.editor is not None:
             self.editor.handle(event)
             if self.editor.dialogs.done:
                 self._close_editor(self.editor)
             return True
-        if not over and self.countdown is not None and self.countdown.handle(event):
+        if self.game is not None and self.game.handle(event):
             return True
-        if over or self.toolbar.handle(event):
+        if self.toolbar.handle(event):
             return True
         if not self.help.is_open and self.dock.handle(event):
             return True
@@ -384,7 +392,7 @@ class Window(PlayerWindow):
             entries = entries_of_place(point, self._actions, self.tools.measure_from, live=live)
         else:
             entries = entries_of_body(frame, body, self._actions, live=live)
-        self.toolbar.menu.open("offer", lambda: entries, (x, y))
+        self.menu.open("offer", lambda: entries, (x, y))
 
     def _plots(self) -> list[Entry]:
         """Return the entries of the menu of plots."""
@@ -401,11 +409,15 @@ class Window(PlayerWindow):
 
         return acts
 
+    def _undo(self) -> None:
+        """Undo what was done by hand; people who play go on from there."""
+        self.director.undo()
+        if self.game is not None and self.game.seats:
+            self.game.begin()
+
     def _restart(self) -> None:
-        """Start again, with the file as it is now."""
         self.grab.cancel()
-        self.notes.clear()
-        self.player.restart()
+        super()._restart()
         if self.game is not None:
             self.dock.named("score").open()
             self.game.begin()
@@ -459,6 +471,8 @@ class Window(PlayerWindow):
             self.tools.ruler.end()
         elif self.director.drives and self.game is None:
             self.director.let_go()
+        elif self.dock.impact.is_open:
+            self.dock.impact.close()
         elif self.selected is not None:
             self.select(None)
         elif self.game is not None and self.player.playing and not self.notes.failed:
@@ -474,19 +488,21 @@ class Window(PlayerWindow):
 
     def _close(self) -> None:
         """Close the window; if hands did something that would be lost, ask first, once."""
-        timeline, menu = self.director.timeline, self.toolbar.menu
-        if not self.asks or timeline is None or not timeline.changed or menu.name == "leave":
+        timeline, open_one = self.director.timeline, self.prompts.prompt
+        asked = open_one is not None and open_one.label == CHANGED
+        if asked or not self.asks or timeline is None or not timeline.changed:
             super()._close()
             return
         self.editor = None
         self.player.pause()
 
-        def save() -> None:
+        def save(_: str) -> None:
             self._open = not self.saver.record(timeline.record)
 
-        entries, plot = entries_of_leaving(save, super()._close), self.layout.plot
-        corner = plot.left + plot.width // 4, plot.top + plot.height // 4
-        menu.open("leave", lambda: entries, corner)
+        leave = Answer(
+            "leave without it", lambda _: PlayerWindow._close(self), keys.LEAVE.labels[0]
+        )
+        self.prompts.ask(CHANGED, Answer("save it, and leave", save), leave, escape="stay")
 
     def _open_editor(self) -> None:
         """Open the editor on the scenario as it is now."""
@@ -499,7 +515,7 @@ class Window(PlayerWindow):
         """Close the editor, and apply its outcome."""
         self.editor = None
         self.viewpoint.look_as(editor.viewpoint)
-        self._keyboard.clear()
+        self._held.clear()
         if editor.dialogs.outcome is not None:
             self.director.apply(editor.dialogs.outcome)
 

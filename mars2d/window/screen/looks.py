@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from typing import Literal
 
@@ -80,6 +81,8 @@ class Looks:
     def _fill_screen(self) -> None:
         """Fill the screen with the window, or no longer."""
         try:
-            pygame.display.toggle_fullscreen()
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", RuntimeWarning)  # the window may be made anew
+                pygame.display.toggle_fullscreen()
         except pygame.error as error:
             self._say(f"no full screen here: {error}", "warning")

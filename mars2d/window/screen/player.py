@@ -231,7 +231,7 @@ class Player:
         if self.manual:
             self.step()
             return
-        self._goal, self._moments = None, ()
+        self._goal, self._moments, self._moment = None, (), 0
         if self.over and not self.failed:
             self.source.go(0)
             self.settle()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 
 import numpy as np
@@ -12,6 +12,7 @@ from mars2d.core.errors import Mars2dError
 from mars2d.output.figures.comparison import MODES, Drift, drifts
 from mars2d.record.contact import met
 from mars2d.record.frame import Frame, between
+from mars2d.record.interventions import Intervention
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.record import Record
 from mars2d.world.timeline import Timeline
@@ -205,3 +206,10 @@ class Trio:
 
 Source = Timeline | Playback | Trio
 """A sequence of frames, one per sampling time, that a window plays."""
+
+
+def done_in(source: Source) -> Sequence[Intervention]:
+    """Return what was done by hand in a run."""
+    if isinstance(source, Timeline):
+        return source.world.operator.log
+    return source.record.interventions if isinstance(source, Playback) else ()

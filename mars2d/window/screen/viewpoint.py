@@ -25,8 +25,6 @@ MAX_ZOOM, MIN_ZOOM = 400.0, 0.05
 
 PULL = 7.0
 """How quickly the camera approaches its aim, 1/s."""
-LEASH = 0.3
-"""How far from the middle a followed body may get, in shares of the picture."""
 MARGIN, MIN_MARGIN = 0.16, 0.03
 """The room round a team after the camera has moved, and the room at which the camera moves again,
 in shares of the picture."""
@@ -175,34 +173,36 @@ class Follow:
         """Start with nothing aimed at."""
         self.target = target
         self._begins = True
-        self._aim: Float | None = None  # middle and logarithm of the scale, of a team
+        self._aim: Float | None = None  # middle and logarithm of the scale
+        self._off = np.zeros(3)  # how far the camera is from it
 
     def camera(self, camera: Camera, frame: Frame, plot: pygame.Rect, dt: float) -> Camera:
         """Return the camera after dt seconds of the wall clock; the same object if it rests.
 
         plot: the visible part of the surface.
         """
-        middle, half = _middle(camera, plot), np.array(plot.size) / (2 * camera.scale)
+        middle = _middle(camera, plot)
         if self.target is None:
             self._look_after_team(camera, frame, plot)
-            if self._aim is None:
-                return camera
-            aim = self._aim
         else:
-            aim = np.array([*frame.body_pose(self.target)[:2], middle[2]])
-        moved = (middle - aim) * exp(-PULL * dt)
-        if self.target is not None:
-            leash = 2 * LEASH * half
-            self._begins &= bool((np.abs(middle - aim)[:2] > leash).any())
-            if not self._begins:  # it does not get away again
-                moved[:2] = np.clip(moved[:2], -leash, leash)
-        if hypot(moved[0], moved[1]) * camera.scale < STILL and abs(float(moved[2])) < STILL / 50:
+            self._aim = np.array([*frame.body_pose(self.target)[:2], middle[2]])
+        if self._aim is None:
+            return camera
+        if self._begins:
+            self._begins, self._off = False, middle - self._aim
+        self._off *= exp(-PULL * dt)
+        wanted = self._aim + self._off
+        dx, dy, zoom = (wanted - middle).tolist()
+        if (
+            max(hypot(dx, dy), hypot(*self._off[:2])) * camera.scale < STILL
+            and abs(zoom) < STILL / 50
+        ):
             self._aim = None
             return camera
         scale = camera.scale  # unchanged to the last bit, so that drawings can be reused
         if self.target is None:
-            scale = min(exp(float(aim[2] + moved[2])), NEAREST)
-        x, y = (aim + moved)[:2].tolist()
+            scale = min(exp(float(wanted[2])), NEAREST)
+        x, y = wanted[:2].tolist()
         return Camera(scale, plot.centerx - scale * x, plot.centery + scale * y)
 
     def _look_after_team(self, camera: Camera, frame: Frame, plot: pygame.Rect) -> None:
@@ -214,9 +214,9 @@ class Follow:
         corners = camera.to_pixels([(low[0], high[1]), (high[0], low[1])]) - plot.topleft
         room = MIN_MARGIN * size
         seen = (corners[0] >= room).all() and (corners[1] <= size - room).all()
-        if self._begins or not seen or camera.scale < SMALL * fit:
-            self._begins = False
-            self._aim = np.array([*(low + high) / 2, log(fit)])
+        begins = self._begins and self._aim is None
+        if begins or not seen or camera.scale < SMALL * fit:
+            self._begins, self._aim = True, np.array([*(low + high) / 2, log(fit)])
 
 
 def _box(frame: Frame) -> tuple[Float, Float]:

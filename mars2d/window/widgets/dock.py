@@ -222,7 +222,7 @@ class Dock:
         return min((least + more) * ui, lane.height), (wanted + more) * ui
 
     def _plates(self, frame: Frame) -> dict[str, pygame.Rect]:
-        """Return where panels stand, by name; sets which of them are folded.
+        """Return where panels stand, by name; sets which are not seen whole.
 
         Where there is no room for all, those opened longest ago are folded, then left out; that
         opened last is always seen whole.
@@ -233,7 +233,7 @@ class Dock:
         while (stacks := self._stacks(lanes, levels, frame)) is None:
             *others, _ = levels
             levels[max(others, key=levels.__getitem__)] -= 1
-        self._folded = {name for name, level in levels.items() if level == 1}
+        self._folded = {name for name, level in levels.items() if level < 2}
         gap, found = round(MARGIN * self.painter.ui), {}
         for lane, stack in zip(lanes, stacks, strict=True):
             more = sum(wanted - least for _, least, wanted in stack)
