@@ -14,16 +14,7 @@ import numpy as np
 import pygame
 from numpy.typing import NDArray
 
-from mars2d.core.scene import (
-    Arrow,
-    Circle,
-    Image,
-    Line,
-    Polygon,
-    Shape,
-    Text,
-    split_wake_style,
-)
+from mars2d.core.scene import Arrow, Circle, Image, Line, Polygon, Shape, Text, split_wake_style
 from mars2d.output.lines import DASHES, MARK_SPACING, arrow_outline, spaced
 from mars2d.output.raster import brushes
 from mars2d.output.raster.brushes import Draw, Enlarged, Rgba, rgba
