@@ -303,11 +303,6 @@ class Description:
                 changes[field.name] = value
         return changes
 
-    def __copy__(self) -> Self:
-        twin = object.__new__(type(self))
-        vars(twin).update(self.__getstate__())
-        return twin
-
     def __getstate__(self) -> dict[str, Any]:
         """Return the state that is copied and pickled: everything but cached properties."""
         return {k: value for k, value in self.__dict__.items() if k not in self._computed}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from functools import cached_property
 from typing import Any, ClassVar, NoReturn
 
 import numpy as np
@@ -83,9 +82,22 @@ class Recorder:
         options: the options that the experiment was opened with, for the record.
         """
         self.versions, self.options = versions, dict(options or {})
+        n, props = len(scenario.robots), len(scenario.props)
+        capacity = min(scenario.last_iteration + 1, 4096)
+        self._columns = {
+            "time": Column((), float, capacity),
+            "pose": Column((3, n), float, capacity),
+            "command": Column((scenario.inputs, n), float, capacity),
+            "command_time": Column((), float, capacity),
+            "prop_pose": Column((3, props), float, capacity),
+            "effort": Column((n,), float, capacity),
+            "velocity": Column((3, n), float, capacity),
+            "prop_velocity": Column((3, props), float, capacity),
+            "work": Column((len(WORK),), float, capacity),
+        }
         self._places: list[tuple[str, NDArray[Any]]] = []  # where rows of columns are written
         self._room = 0  # the number of rows that all of them have
-        self._capacity = min(scenario.last_iteration + 1, 4096)
+        self._capacity = capacity
         self.scenario = scenario
         self._sensors: dict[str, Column] = {}
         self._contacts = Column((), CONTACT, 64)
@@ -101,23 +113,6 @@ class Recorder:
                     self.sensor_robots[sensor.key] = (*self.sensor_robots.get(sensor.key, ()), i)
                     blamed = called(f"sensor {sensor.key!r}", sensor.read)
                     self._blamed.setdefault(sensor.key, blamed)
-
-    @cached_property
-    def _columns(self) -> dict[str, Column]:
-        """The columns of a row, by name; made when they are needed, as many runs have no rows."""
-        n, props, m = len(self.scenario.robots), len(self.scenario.props), self.scenario.inputs
-        shapes: dict[str, tuple[int, ...]] = {
-            "time": (),
-            "pose": (3, n),
-            "command": (m, n),
-            "command_time": (),
-            "prop_pose": (3, props),
-            "effort": (n,),
-            "velocity": (3, n),
-            "prop_velocity": (3, props),
-            "work": (len(WORK),),
-        }
-        return {name: Column(shape, float, self._capacity) for name, shape in shapes.items()}
 
     def write(
         self, readings: Mapping[str, Sequence[Any] | NDArray[Any]], **columns: Float | float
