@@ -52,7 +52,7 @@ def mover_of(scenario: Scenario) -> Any:
     )
     return module.Mover(
         accuracy,
-        module.Glide(*(part.tolist() for part in _quadrature(20))),
+        module.Glide(*_quadrature(20)),
         bodies,
         _walls(module, scenario, accuracy.seams()),
         [_tie(module, tie, bodies) for tie in scenario.ties],
@@ -198,7 +198,8 @@ def _limits(attached: AttachedJoint) -> list[float]:
     return [-1e300, 1e300, 0.0]
 
 
-def _sides(corners: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+@lru_cache
+def _sides(corners: tuple[tuple[float, float], ...]) -> list[tuple[float, float]]:
     """Return the outward normals of a polygon's sides; none for a disc."""
     if len(corners) < 2:
         return []
@@ -208,21 +209,12 @@ def _sides(corners: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
     return [(y / far, -x / far) for (x, y), far in zip(ways, lengths, strict=True) if far > 0]
 
 
-def _quadrature(count: int) -> tuple[Float, Float]:
+@lru_cache
+def _quadrature(count: int) -> tuple[list[float], list[float]]:
     """Return nodes and weights for integrals from 0 to 1 of functions that bend sharply at 0.
 
-    They are those of Gauss and Legendre in t, where the variable of the integrals is t^3.
-    """
-    t, weight = _gauss(count)
-    t = (t + 1) / 2
-    return t * t * t, 1.5 * weight * (t * t)
-
-
-@lru_cache
-def _gauss(count: int) -> tuple[Float, Float]:
-    """Return the nodes and weights of Gauss and Legendre from -1 to 1.
-
-    numpy's are eigenvalues, whose last bits depend on the processor.
+    They are those of Gauss and Legendre in t, where the variable of the integrals is t^3. numpy's
+    are eigenvalues, whose last bits depend on the processor.
     """
     x = -cosines_sines(pi * (np.arange(count) + 0.75) / (count + 0.5))[0]
     for _ in range(8):  # Newton's method
@@ -231,7 +223,8 @@ def _gauss(count: int) -> tuple[Float, Float]:
             before, value = value, ((2 * k - 1) * x * value - (k - 1) * before) / k
         slope = count * (x * value - before) / (x * x - 1)
         x = x - value / slope
-    return x, 2 / ((1 - x * x) * (slope * slope))
+    t, weight = (x + 1) / 2, 2 / ((1 - x * x) * (slope * slope))
+    return (t * t * t).tolist(), (1.5 * weight * (t * t)).tolist()
 
 
 def _translated(

@@ -170,6 +170,6 @@ def _place(
         free = shapely.contains_xy(area, x, y)
         free &= (norms(x[:, None] - taken[0], y[:, None] - taken[1]) >= taken[2]).all(axis=1)
         for place in zip(x[free].tolist(), y[free].tolist(), strict=True):
-            if not room.solid.query(shapely.points(*place), "dwithin", reach).size:
+            if not room.solid.query(shapely.points([place]), "dwithin", reach).size:
                 return place
     return None

@@ -250,7 +250,7 @@ class Scenario(Description):
         if not self.random_starts:
             return self
         found = copy.copy(self)  # whatever was checked holds for these starts as well
-        vars(found).update(self._placed(seed), random_starts=())
+        vars(found).update(self._placed(seed), random_starts=(), surfaces=self.surfaces)
         return found
 
     def _repr_svg_(self) -> str:

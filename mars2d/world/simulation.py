@@ -51,7 +51,7 @@ class Simulation(State):
     motion. watch: called with the world between sensing and control. world: the World that add-ons
     and watchers are called with. view: the world as laws may see it. seconds: of the wall clock
     that physics, laws and sensing, with add-ons, have taken by now. endless: whether the stop time
-    does not end it, as in a fork.
+    does not end it, as in a fork. error: of a law, sensor or add-on, which has ended it.
     """
 
     def __init__(
@@ -69,6 +69,7 @@ class Simulation(State):
         self.watch: Callable[[Any], None] | None = None
         self.seconds = {"physics": 0.0, "laws": 0.0, "sensing": 0.0}
         self.endless = False
+        self.error: LawError | None = None
         self._drawn = Scene()  # by the add-ons, at the end
         self._stepping = True  # until `begin` is done
         self.observed = -1  # the iteration that add-ons and sensors were last called for
@@ -229,6 +230,7 @@ class Simulation(State):
             return act(*arguments)
         except (LawError, DiskError) as error:
             if isinstance(error, LawError):
+                self.error = error
                 error.where = error.where or self.filename or None
                 error.time = self.time if error.time is None else error.time
             self.break_off(f"Error: {error}")

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from copy import copy
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
@@ -44,7 +44,6 @@ class Timeline:
     keeps in its module. What laws print is not repeated, but other effects outside of the world,
     such as writing a file, are.
 
-    experiment: its laws, as its file was last read, and its scenario.
     watchers: called at each control step. log: writes each row of the present branch to a file.
 
     world: at the newest row. row: the present one. branches: the worlds of the other branches, the
@@ -78,18 +77,20 @@ class Timeline:
     def _begin(self, experiment: Experiment) -> None:
         """Build the world of an experiment whose laws have not been asked yet."""
         self.world = open_world(experiment, self._watchers)
-        self.experiment = experiment
         self._past = Past(experiment)
         self.branches: list[World] = []
         self.row = 0
         self.remark = ""
-        self._lines = {self.world: _Line(((0, 0),))}
-        self._errors: dict[World, LawError] = {}
-        self._count = 0  # of branches that there have been
+        self._lines = {self.world: _Line(())}
         self._seen: tuple[World, int, Record] | None = None
         self._write()
 
     # -- the present row -------------------------------------------------------------------------
+
+    @property
+    def experiment(self) -> Experiment:
+        """Its laws, as its file was last read, its options, and its scenario at the start."""
+        return self._past.experiment
 
     @property
     def newest(self) -> int:
@@ -126,7 +127,7 @@ class Timeline:
     @property
     def error(self) -> LawError | None:
         """The error of a law, sensor or add-on at the newest row, or None."""
-        return self._errors.get(self.world)
+        return self.world.simulation.error
 
     @property
     def record(self) -> Record:
@@ -178,8 +179,7 @@ class Timeline:
             self.row += 1
         elif not self.world.over:
             self._past.driven.update(self.world.operator.driven)
-            with self._noting():
-                self.world.step()
+            self.world.step()
             if self._track.since < NEVER:  # its laws are those of the experiment
                 self._past.keep(self.world)
             self.row = self.newest
@@ -206,17 +206,7 @@ class Timeline:
     def _observe(self) -> None:
         """Read the sensors for the present instant."""
         if not self.world.over:
-            with self._noting():
-                self.world.observe()
-
-    @contextmanager
-    def _noting(self) -> Iterator[None]:
-        """Keep the error that ends the run, for a later look at it."""
-        try:
-            yield
-        except LawError as error:
-            self._errors[self.world] = error
-            raise
+            self.world.observe()
 
     # -- branches -----------------------------------------------------------------------------
 
@@ -266,20 +256,18 @@ class Timeline:
             done -= 1
         row = log[done].row
         self._past.forget_after(row)
-        experiment, past = self._with_options(options_of(self.world, done))
+        past = self._with_options(options_of(self.world, done))
         world = past.world_at(replace(self._track, done=done), row, progress)
         world.operator.let_go()
-        self.row = row
-        self.experiment, self._past = experiment, past
+        self.row, self._past = row, past
         self._adopt(world)
         return log[done]
 
-    def _with_options(self, options: dict[str, Any]) -> tuple[Experiment, Past]:
-        """Return the experiment and the past, or those with other options."""
+    def _with_options(self, options: dict[str, Any]) -> Past:
+        """Return the past, or that of the same run with other options."""
         if options == self.experiment.options:
-            return self.experiment, self._past
-        experiment = self.experiment.with_options(options)
-        return experiment, self._past.with_laws_of(experiment)
+            return self._past
+        return self._past.with_laws_of(self.experiment.with_options(options))
 
     def check(self, experiment: Experiment) -> None:
         """Raise InputError for an experiment that `take` can't go on with."""
@@ -335,7 +323,7 @@ class Timeline:
         goes_on = not self.needs_way_back and experiment.decides_as(self.experiment)
         if goes_on:  # with its laws as they are
             self._change_to(experiment, self.world)
-            self.experiment = self._past.experiment = experiment
+            self._past.experiment = experiment
             return "in effect from now on; R runs it from the start"
         past = self._past.with_laws_of(experiment)
         if not ended:
@@ -343,7 +331,7 @@ class Timeline:
             world = past.world_at(track, self.row, progress, past.opened(experiment))
             world.operator.let_go()
             self._change_to(experiment, world)
-        self.experiment, self._past = experiment, past
+        self._past = past
         self._lines = {w: replace(line, since=NEVER) for w, line in self._lines.items()}
         if ended:
             return "in effect where you go back and change something; R runs it from the start"
@@ -371,9 +359,7 @@ class Timeline:
             self.branches.append(before)
         else:
             del self._lines[before]
-            self._errors.pop(before, None)
-        self._count += 1
-        self._lines[world] = line.off(self._count, row)
+        self._lines[world] = line.off(row)
         self.world = world
         self.remark = self._past.doubt
         self._past.forget_after(row)
@@ -390,7 +376,7 @@ class Timeline:
         if other not in self.branches:
             self._show_run(other)
             return
-        self.experiment, self._past = self._with_options(options_of(other))
+        self._past = self._with_options(options_of(other))
         self.branches.remove(other)
         self.branches.append(self.world)
         common = self._lines[self.world].common(self._lines[other])
@@ -415,27 +401,21 @@ class Timeline:
 class _Line:
     """The rows of a branch, as parts of branches, to find those that two have in common.
 
-    parts: the numbers of the branches, and the rows at which each begins. since: the
+    parts: a mark of each branch that it went through, and the row at which that begins. since: the
     row from which on its laws are those of the experiment as it is now.
     """
 
-    parts: tuple[tuple[int, int], ...]
+    parts: tuple[tuple[object, int], ...]
     since: int = 0
 
-    def off(self, number: int, row: int) -> _Line:
+    def off(self, row: int) -> _Line:
         """Return the line of a new branch off this one, whose laws are those of now."""
         parts = [part for part in self.parts if part[1] <= row]
-        return _Line((*parts, (number, row)), min(self.since, row))
+        return _Line((*parts, (object(), row)), min(self.since, row))
 
     def common(self, other: _Line) -> int:
         """Return up to which row this and another are the same."""
-        shared = 0
-        for mine, others in zip(self.parts, other.parts, strict=False):
-            if mine != others:
-                break
-            shared += 1
-        rest = [*self.parts[shared:][:1], *other.parts[shared:][:1]]
-        return min((row for _, row in rest), default=NEVER)
+        return min((row for _, row in {*self.parts} ^ {*other.parts}), default=NEVER)
 
 
 def options_of(world: World, done: int | None = None) -> dict[str, Any]:

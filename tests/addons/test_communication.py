@@ -29,8 +29,6 @@ from mars2d.scenario.neighbours import Everyone, Nearest, Neighbourhood, Within
 from mars2d.world.verify import rerun
 from tests.cases import each_case
 
-STILL = (0.0, 0.0)
-
 
 class Ahead(Neighbourhood):
     """Each robot sees the two that come after it."""

@@ -64,8 +64,7 @@ class Desk:
         self.set_to.append((name, value, restart))
         if self.reason and not restart:
             return self.reason
-        options = {**self.source.experiment.options, name: value}
-        self.source.experiment = self.source.experiment.with_options(options)
+        self.source.set({name: value})
         return self.reason
 
     def draw(self, height=400):
@@ -188,11 +187,11 @@ def test_where_there_is_little_room_the_wheel_and_the_focus_scroll(file):
 
 def test_a_file_without_parameters_and_a_failing_value_are_said(file):
     desk = Desk(file)
-    desk.source.experiment = open_experiment("go_to_point")
+    desk.source.restart(open_experiment("go_to_point"))
     assert desk.panel.parameters() == {}
     assert desk.panel._look()[0][0].startswith("No parameters")
     assert desk.panel._words()[0].startswith("select a robot or prop")
-    desk.source.experiment = open_experiment(file)
+    desk.source.restart(open_experiment(file))
     desk.panel.focus = "mu"
 
     def refuse(name, value, restart):

@@ -90,10 +90,6 @@ def test_commands_by_name_leave_the_other_laws_going():
     np.testing.assert_array_equal(commands[:, :, 1], alone.record.command[:, :, 1])
 
 
-def steer_all(world):
-    return [[0.1, 0.1], [0.5, 0.5]]
-
-
 WRONG = [
     ({"rad": (1, 0)}, "did you mean 'red'"),
     ({2: (1, 0)}, "2"),

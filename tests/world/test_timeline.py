@@ -366,16 +366,18 @@ scenario = Scenario(robots=[Robot(controller=law)], sampling_time=0.1)
 def test_the_past_of_a_failed_run_can_be_looked_at_and_mended(written):
     path = written(FAILING)
     timeline = Timeline(open_experiment(path))
-    with pytest.raises(LawError, match="division by zero"):
+    with pytest.raises(LawError, match="division by zero") as raised:
         finish(timeline)
     failed = timeline.newest
     assert timeline.over
+    assert timeline.error is raised.value
     timeline.go(5)
     assert timeline.frame.over_message == ""
     timeline.go(failed)
     path.write_text(FAILING.replace("1 / 0", "0.3"))
     timeline.change(lambda w: w.operator.steer(0, None))
     assert timeline.row == failed
+    assert timeline.error is None
     assert timeline.branches == []  # the one that failed has no row that this one has not
     run_to(timeline, 2 * failed)
     assert timeline.world.history.command[-1].ravel().tolist() == [0.3, 0.0]
