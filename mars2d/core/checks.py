@@ -101,7 +101,7 @@ def outline(name: str, value: object, least: int = 2, *, closed: bool = True) ->
     return tuple(points)
 
 
-@accepts(OUTLINE)
+@accepts(OUTLINE | {"minItems": 3})
 def polygon(name: str, value: object) -> Outline:
     """Check the outline of an area: three vertices or more."""
     return outline(name, value, least=3)
