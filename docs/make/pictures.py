@@ -95,7 +95,7 @@ def walked(path: Path) -> None:
         timeline.go(220)
         timeline.change(lambda world: world.operator.place("robot0", (-2.3, 2.4, -2.7)))
         window = Window(advanced(timeline, 45), size=(1280, 720))
-        window.player.settle()
+        window.player.pause()
         window.select(0)
         save_window(window, path)
 
