@@ -289,8 +289,10 @@ def test_what_is_wrong_is_said_in_words_and_marked_and_not_saved(open_editor, tm
     before = (tmp_path / "given.toml").read_bytes()
     hands.press("ctrl+s")
     hands.until(lambda s: s["notice"] == "Not saved: robot0 and robot1 overlap by 0.2 m")
+    hands.press("ctrl+q", "Return")  # the question stays, and says why
+    hands.until(lambda s: s["error"] == "Not saved: robot0 and robot1 overlap by 0.2 m")
     assert (tmp_path / "given.toml").read_bytes() == before
-    hands.press("ctrl+z")
+    hands.press("Escape", "ctrl+z")
     hands.until(lambda s: s["fault"] == "" and not s["culprits"])
 
 
@@ -416,7 +418,7 @@ def test_leaving_a_paused_run_asks_what_to_do_with_the_changes(open_editor):
     hands.until(lambda s: s["robots"][0][0] == 2)
     hands.press("Escape", "Escape")
     hands.until(lambda s: s["prompt"] == "Use what was drawn?")
-    hands.press("BackSpace")
+    hands.press("Down", "Down", "Return")
     assert hands.until(lambda s: s.get("left"))["when"] is None
 
 

@@ -63,11 +63,18 @@ class Prompts:
         self,
         label: str,
         *answers: Answer,
-        field: TextField | None = None,
+        text: str | None = None,
         doc: str = "",
         escape: str = "cancel",
     ) -> None:
-        """Open a prompt, of which Enter gives the first answer; escape: what Esc does, in words."""
+        """Open a prompt, of which Enter gives the first answer.
+
+        text: stands in a field to type in, selected; None for no field. escape: what Esc does, in
+        words.
+        """
+        field = None if text is None else TextField(text, opened_by_key=True)
+        if field is not None:
+            field.select_all()
         self._show(Prompt(label, field, doc), [*answers, Answer(escape, key="Esc")])
 
     def _show(self, prompt: Prompt, answers: Sequence[Answer]) -> None:
@@ -82,8 +89,8 @@ class Prompts:
                 self._show(prompt, answers)
 
         def entries() -> list[Entry]:
-            tone = "warning" if prompt.error else "note"
-            told = [Entry(prompt.error or prompt.doc, tone=tone)] if prompt.field else []
+            words, tone = prompt.error or prompt.doc, "warning" if prompt.error else "note"
+            told = [Entry(words, tone=tone)] if words else []
             ways = [
                 Entry(each.words, partial(answer, each), each.key, value="Enter" * (not each.key))
                 for each in answers
