@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import pygame
@@ -82,6 +83,44 @@ def branches(path: Path) -> None:
     camera = fitted(timeline.scenario.bounds, artist.size, artist.layout)
     artist.painter.paint(picture, ghosts(timeline, timeline.frame).shapes, camera)
     save_png(picture, path)
+
+
+def walked(path: Path) -> None:
+    """Draw the README's first walk, in which a robot was moved, and the inspector."""
+    readme = (Path(__file__).parents[2] / "README.md").read_text("utf-8")
+    with TemporaryDirectory() as folder:
+        walk = Path(folder) / "walk.py"
+        walk.write_text(readme.split("```python\n")[1].split("```")[0], "utf-8")
+        timeline = advanced(Timeline(open_experiment(walk)), 280)
+        timeline.go(220)
+        timeline.change(lambda world: world.operator.place("robot0", (-2.3, 2.4, -2.7)))
+        window = Window(advanced(timeline, 45), size=(1280, 720))
+        window.player.pause()
+        window.select(0)
+        save_window(window, path)
+
+
+def play_roles(path: Path) -> None:
+    """Draw a game that asks for its person's role."""
+    window = Window(Timeline(open_experiment("corner_game")), size=(1000, 600))
+    window.play(())
+    save_window(window, path)
+
+
+def play_end(path: Path) -> None:
+    """Draw the end of a bout of two people, of whom red drives straight on and blue waits."""
+    timeline = Timeline(open_experiment("sumo"))
+    window = Window(timeline, size=(1000, 600))
+    window.play((0, 1))
+    while window.game.counting:
+        window.game.pass_time(0.1)
+    while not timeline.over:
+        timeline.world.operator.steer("red", (0.4, 0.0))
+        timeline.world.operator.steer("blue", (0.0, 0.0))
+        timeline.advance()
+    window.player.settle()
+    window.game.pass_time(0.1)
+    save_window(window, path)
 
 
 def parameters(path: Path) -> None:
@@ -208,6 +247,9 @@ PICTURES = {
     "forces": forces,
     "window_compare": compare,
     "branches": branches,
+    "window_branch": walked,
+    "play_roles": play_roles,
+    "play_end": play_end,
     "parameters": parameters,
     "window_predictions": predictions,
     "scopes": scopes,

@@ -66,14 +66,14 @@ PIP = {*SET_UP, 'pip install ".[video,maps,data,log,cluster,rl]"'}
 """The only commands that are not executed, but for the part of them that is mars2d."""
 
 MEASURED = {
-    "speed_growth.png", "paper_page.png", "window_branch.png", "replay.png", "league.png",
-    "home.png", "play_roles.png", "play_end.png", "straight_chase_bodies.png",
+    "speed_growth.png", "paper_page.png", "replay.png", "league.png",
+    "home.png", "straight_chase_bodies.png",
     "homicidal_chauffeur_bodies.png", "homicidal_chauffeur_boundary.png", "two_cars_bodies.png",
     "lion_and_man_bodies.png", "encirclement_bodies.png", "learning_pursuit.png",
     "learning_push.png", "learning_sumo.png", "learning_coverage.png",
 }  # fmt: skip
 """Pictures that no block makes: `benchmarks/growth.py` and `docs/make/pursuit.py` take minutes, a
-page needs a browser, a window somebody at the keys."""
+page needs a browser."""
 
 sys.path.insert(0, str(ROOT / "docs" / "make"))
 DRAWN: dict[str, Callable[[Path], None]] = importlib.import_module("pictures").PICTURES
