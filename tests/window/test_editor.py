@@ -289,8 +289,10 @@ def test_what_is_wrong_is_said_in_words_and_marked_and_not_saved(open_editor, tm
     before = (tmp_path / "given.toml").read_bytes()
     hands.press("ctrl+s")
     hands.until(lambda s: s["notice"] == "Not saved: robot0 and robot1 overlap by 0.2 m")
+    hands.press("ctrl+q", "Return")  # the question stays, and says why
+    hands.until(lambda s: s["error"] == "Not saved: robot0 and robot1 overlap by 0.2 m")
     assert (tmp_path / "given.toml").read_bytes() == before
-    hands.press("ctrl+z")
+    hands.press("Escape", "ctrl+z")
     hands.until(lambda s: s["fault"] == "" and not s["culprits"])
 
 

@@ -20,10 +20,8 @@ from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor import Editor
 from mars2d.window.editor.desk import Desk
-from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft, Item, Motion
-from mars2d.window.editor.handles import spanned
-from mars2d.window.editor.picking import item_at, items_within
+from mars2d.window.editor.grips import spanned
 from mars2d.window.editor.verdict import judge
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.viewpoint import Viewpoint
@@ -56,7 +54,7 @@ def renamed(draft, robot, name):
 
 def test_a_draft_keeps_the_order_and_the_fields_of_add_ons():
     scenario = furnished()
-    draft = Draft(scenario).added("outline", ((-1, -1), (0, -1), (0, 0)))
+    draft = Draft(scenario).added({Item("outline"): ((-1, -1), (0, -1), (0, 0))})
     changed = draft.scenario()
     assert [addon.key for addon in changed.addons] == [addon.key for addon in scenario.addons]
     chart = changed.addons[1]
@@ -69,18 +67,19 @@ def test_a_draft_keeps_the_order_and_the_fields_of_add_ons():
 def test_with_a_robot_go_its_route_and_its_joints():
     draft = Draft(furnished()).without([Item("robot", 1)])
     scenario = draft.scenario()
-    assert draft.listed("waypoint") == ((),)
+    assert draft.listed["waypoint"] == ((),)
     assert scenario.joints == ()
-    assert renamed(draft.added("robot", Robot()), 1, "second").base.joints == ()
+    assert renamed(draft.added({Item("robot"): Robot()}), 1, "second").base.joints == ()
     assert not any(isinstance(addon, Waypoints) for addon in scenario.addons)
     first = Draft(furnished()).without([Item("robot", 0)])
-    (route,) = first.listed("waypoint")
+    (route,) = first.listed["waypoint"]
     assert route == ((-3, 3), (-2, 3))  # robot 1 is robot 0 now, and so is its route
 
 
 def test_new_things_get_names_that_are_free():
     before = Draft(furnished())
-    draft = before.added("robot", Robot()).added("prop", Box()).added("beacon", Beacon((0, 0)))
+    models = {Item("robot"): Robot(), Item("prop"): Box(), Item("beacon"): Beacon((0, 0))}
+    draft = before.added(models)
     names = [draft.name(item) for item in draft.new_since(before)]
     assert names == ["box1", "robot1", "beacon0"]
 
@@ -118,11 +117,11 @@ def test_a_body_that_is_moved_starts_there_and_no_longer_at_random():
     robots = [Robot(name="red"), Robot(name="blue")]
     draft = Draft(Scenario(robots=robots, random_starts=[RandomStarts()]))
     red, blue = Item("robot", 0), Item("robot", 1)
-    x, y, _ = draft.pose(red)
+    x, y = draft.place(red)
     moved = draft.moved([red], Motion(by=(3 - x, 3 - y)))
     assert (draft.starts_at_random(red), moved.starts_at_random(red)) == (True, False)
     assert moved.scenario().started(seed=9).robots[0].pose[:2] == (3, 3)
-    assert moved.scenario().started(seed=9).robots[1].pose != moved.robots[1].pose
+    assert moved.scenario().started(seed=9).robots[1].pose != moved.base.robots[1].pose
     assert moved.without([blue]).scenario().random_starts == ()
 
 
@@ -141,8 +140,8 @@ def test_a_new_name_holds_wherever_the_body_is_mentioned():
     )
     draft = Draft(scenario)
     draft = renamed(renamed(draft, 0, "Ada"), 1, "Bo")
-    assert [robot.name for robot in draft.robots] == ["Ada", "Bo", "robot2"]
-    assert draft.robots[2].controller.leader == "Ada"
+    assert [robot.name for robot in draft.base.robots] == ["Ada", "Bo", "robot2"]
+    assert draft.base.robots[2].controller.leader == "Ada"
     assert draft.base.joints[0].a == "Bo"
     found = draft.scenario()
     game, estimate = found.addons[-2:]
@@ -158,8 +157,8 @@ def test_things_turn_about_a_point_and_come_back():
     items = draft.items()
     quarter = Motion(pi / 2, (1.0, 2.0), (0.5, -0.5))
     turned = draft.moved(items, quarter)
-    assert turned.robots[0].pose == pytest.approx((3.5, -2.5, pi / 2))
-    assert turned.listed("outline")[0][0] == pytest.approx((2.5, 1.5))
+    assert turned.base.robots[0].pose == pytest.approx((3.5, -2.5, pi / 2))
+    assert turned.listed["outline"][0][0] == pytest.approx((2.5, 1.5))
     back = turned.moved(items, Motion(by=(-0.5, 0.5))).moved(items, Motion(-pi / 2, (1.0, 2.0)))
     assert back.scenario() == draft.scenario()
 
@@ -170,7 +169,7 @@ def test_things_turn_about_a_point_and_come_back():
 def fault(draft):
     verdict = judge(draft)
     assert verdict.scenario is None
-    return verdict.faults[0].text, verdict.culprits
+    return verdict.text, verdict.culprits
 
 
 @each_case(
@@ -191,7 +190,7 @@ def test_a_robot_that_can_not_stand_where_it_is(by, words, other):
 
 
 def test_a_waypoint_outside_the_workspace():
-    draft = Draft(furnished()).added("waypoint", (7.0, 0.0))
+    draft = Draft(furnished()).added({Item("waypoint"): (7.0, 0.0)})
     outside = {Item("waypoint", 0, 0)}
     assert fault(draft) == ("waypoint 0 of robot0 lies outside the workspace", outside)
 
@@ -199,7 +198,7 @@ def test_a_waypoint_outside_the_workspace():
 def test_outlines_that_are_none():
     words = r"obstacle 1: the polygon crosses or touches itself at \(0.5, 0.5\)"
     with pytest.raises(InputError, match=words):
-        Draft(furnished()).added("outline", BOW)
+        Draft(furnished()).added({Item("outline"): BOW})
 
 
 # -- history, sketch, targets, prompts -------------------------------------------------------------
@@ -222,8 +221,8 @@ def test_what_lies_uppermost_is_hit():
         (4.1, -4.0): Item("beacon", 0),
         (0.0, 4.0): None,
     }.items():
-        assert item_at(desk, point) == item
-    found = items_within(desk, (-4.0, 4.0), (-2.5, -1.0))
+        assert desk.item_at(point) == item
+    found = desk.items_within((-4.0, 4.0), (-2.5, -1.0))
     assert found == [Item("robot", 0), Item("robot", 1), Item("waypoint", 1, 0)]
 
 
@@ -246,20 +245,17 @@ def test_a_box_spans_two_corners_whichever_way():
         assert box.pose == pytest.approx((end[0] / 2, end[1] / 2, pi / 2))
 
 
-def test_a_document_proposes_a_name_that_is_free_and_never_a_py(tmp_path, monkeypatch):
+def test_a_file_gets_a_name_that_is_free_and_never_that_of_a_py(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "walk.toml").write_text("")
-    assert Document(tmp_path / "walk.py").path is None
-    assert Document(tmp_path / "walk.py").proposal.endswith("walk_2.toml")
-    assert Document(tmp_path / "walk.toml").path == tmp_path / "walk.toml"
-    assert Document(None).proposal == "scenario.toml"
-    document = Document(tmp_path / "room.toml")
-    assert (document.path, document.new) == (tmp_path / "room.toml", True)
-    (tmp_path / "room.toml").write_text("somebody else's")
-    assert document.is_another(tmp_path / "room.toml")
-    document.save(Scenario(robots=1), tmp_path / "room.toml")
-    assert not document.new
-    assert not document.is_another(tmp_path / "room.toml")
+    for given, path, proposal, new in (
+        (Path("walk.py"), None, "walk_2.toml", True),
+        (Path("walk.toml"), Path("walk.toml"), "walk_2.toml", False),
+        (Path("room.toml"), Path("room.toml"), "room.toml", True),
+        (None, None, "scenario.toml", True),
+    ):
+        dialogs = Editor(Scenario(robots=1), Looks(), path=given).dialogs
+        assert (dialogs.path, dialogs.proposal, dialogs.new) == (path, proposal, new)
 
 
 # -- the editor on a surface ----------------------------------------------------------------------

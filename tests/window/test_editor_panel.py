@@ -3,7 +3,7 @@
 import mars2d
 from mars2d.bodies.joints import Rope
 from mars2d.bodies.props import Box
-from mars2d.scenario.controllers import FollowWaypoints, Wander
+from mars2d.scenario.controllers import Wander
 from mars2d.scenario.registry import members
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
@@ -38,8 +38,7 @@ def test_a_robot_along_its_waypoints_gets_them_by_the_next_clicks_and_then_it_ru
     open_editor, tmp_path
 ):
     hands = chosen(open_editor, team((0, 0), stop_time=60))
-    hands.row("Law")
-    hands.entry(FollowWaypoints.title)
+    hands.press("F2", "Return", *"along", "space", *"its", "Return")
     hands.until(lambda s: s["tool"] == "waypoint" and s["idle"] == {"0": "a waypoint"})
     hands.click(2, 0)
     hands.click(2, 2)
@@ -195,7 +194,8 @@ def test_what_nobody_gave_reads_as_what_it_is_and_can_be_taken_back(open_editor)
     hands = chosen(open_editor, Scenario(robots=[Robot(pose=(3, 3, 0))], props=[box]))
     assert ["Mass", "automatic (0.24 kg)"] in hands.state["rows"]
     assert ["Moment", "automatic (0.0016 kg m^2)"] in hands.state["rows"]
-    assert all(len(row.value) < 20 for row in hands.shown.editor.properties.rows())
+    rows = hands.shown.editor.properties.rows()
+    assert all(len(row.title) + len(row.value) <= 25 for row in rows)
     hands.row("Mass")
     hands.fill("1.5")
     hands.until(lambda s: ["Mass", "1.5 kg"] in s["rows"])
@@ -268,15 +268,15 @@ def test_without_a_mouse_areas_are_drawn_their_corners_changed_and_bodies_tied(o
     typed(hands, "0 1", "2 1")
     hands.press("Escape", "Tab", "Tab", "Tab", "shift+Tab")
     hands.until(lambda s: s["selection"] == [["robot", 0, 0], ["robot", 1, 0]])
-    for place in ("0 2", "robot1"):
+    for place in ("0.123 2", "robot1"):
         hands.press("F2", "j", "Return", "r", "o", "p", "Return")
         hands.until(lambda s: s["tool"] == "tie")
         typed(hands, place)
         hands.press("Escape", "Tab", "Tab", "Tab")
-    assert [joint[:3] for joint in hands.state["joints"]] == [
-        ["Rope", "robot0", None],
-        ["Rope", "robot1", None],
-        ["Rope", "robot0", "robot1"],
+    assert hands.state["joints"] == [
+        ["Rope", "robot0", None, [0.123, 2]],
+        ["Rope", "robot1", None, [0.123, 2]],
+        ["Rope", "robot0", "robot1", [0, 0]],
     ]
 
 

@@ -131,7 +131,7 @@ def faults_of_comparison(trio, size, text):
 def test_all_has_room_at_every_size_of_the_window_and_of_the_text(size, monkeypatch):
     monkeypatch.setenv("MARS2D_MEMORY", "")
     monkeypatch.setattr(home, "thumbnail_of", lambda *_: None)
-    faults, sides = [], []
+    faults, sides, rows = [], [], []
     game = Timeline(open_experiment("lion_and_man"))
     trio = Trio({mode: Timeline(open_experiment("tug_of_war")) for mode in MODES})
     for text in TEXT_SIZES:
@@ -142,5 +142,7 @@ def test_all_has_room_at_every_size_of_the_window_and_of_the_text(size, monkeypa
         editor = editor_of(text)
         editor.draw(Written(size))
         sides.append(editor._toolbar.places["robot"].width)
+        rows.append(editor.panel.places["Title"].height)
     assert faults == []
     assert min(sides) >= 0.87 * sides[0], "larger text takes little room from the buttons"
+    assert size != (1280, 720) or rows[-1] >= 2 * rows[0], "the panel is read from the back row"

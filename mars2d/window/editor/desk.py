@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from math import floor, hypot, log10
 
+import numpy as np
+import shapely
+
 from mars2d.core.errors import InputError
-from mars2d.core.plane import Point, grid_step
+from mars2d.core.plane import Outline, Point, grid_step
 from mars2d.output.raster.camera import Camera
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.item import Item, Motion, tidy
@@ -14,124 +17,98 @@ from mars2d.window.screen.viewpoint import Viewpoint
 
 MIN_GRID_STEP = 9.0
 """The smallest step of the grid on the screen, points."""
-MAX_DRAFTS = 500
-"""The length of the history."""
-
-
-class History:
-    """The drafts so far: those to undo, the present one, those to redo; saved: that of the file."""
-
-    def __init__(self, draft: Draft) -> None:
-        """Start with a draft that counts as saved."""
-        self.draft, self._tag = draft, ""
-        self.saved: Draft | None = draft
-        self._past: list[Draft] = []
-        self._ahead: list[Draft] = []
-
-    @property
-    def changed(self) -> bool:
-        """Whether the present draft differs from the saved one."""
-        return self.draft is not self.saved and self.draft != self.saved
-
-    def put(self, draft: Draft, tag: str = "") -> None:
-        """Continue with a draft. Consecutive changes with the same tag are undone as one."""
-        if draft == self.draft:
-            return
-        if not tag or tag != self._tag:
-            self._past = [*self._past, self.draft][-MAX_DRAFTS:]
-        self._ahead, self.draft, self._tag = [], draft, tag
-
-    def has(self, by: int) -> bool:
-        """Return whether there is a change to redo, or for a number below 0 to undo."""
-        return bool(self._ahead if by > 0 else self._past)
-
-    def go(self, by: int) -> bool:
-        """Redo a change, or undo one for a number below 0; return whether there was one."""
-        source, target = (self._ahead, self._past) if by > 0 else (self._past, self._ahead)
-        self._tag = ""
-        if source:
-            target.append(self.draft)
-            self.draft = source.pop()
-            return True
-        return False
-
-    def save(self, saved: Draft) -> None:
-        """Count the present draft as saved; saved: it, with the title that it has got."""
-        self.draft = self.saved = saved
-        self._tag = ""
+NEAR, POINT_RADIUS = 5.0, 4.0
+"""A point this far from an item still hits it, and the radius of beacons and waypoints, points of
+the screen."""
 
 
 class Desk:
-    """The draft with everything that tools need.
+    """The draft with everything that tools need; the drafts so far, to undo and to redo.
 
-    selection: the selected items, in the order of selection. corner: the index of the last touched
-    corner, if one outline alone is selected. snaps: whether points snap to the grid. notice: a text
-    for the footer; warns: whether it is a warning.
+    saved: the draft of the file. selection: the selected items, in the order of selection. corner:
+    the index of the last touched corner, if one outline alone is selected. snaps: whether points
+    snap to the grid. shift: whether Shift is held. notice: a text for the footer; warns: whether it
+    is a warning.
     """
 
     def __init__(self, draft: Draft, viewpoint: Viewpoint) -> None:
-        """Start with nothing selected."""
-        self.history = History(draft)
+        """Start with nothing selected, and with a draft that counts as saved."""
+        self.saved: Draft | None = draft
+        self._drafts, self._now, self._tag = [draft], 0, ""
+        self._held: Draft | None = None
         self.selection: tuple[Item, ...] = ()
         self.corner: int | None = None
         self.viewpoint = viewpoint
-        self.snaps = True
-        self.notice = ""
-        self.warns = False
-        self._held: Draft | None = None
+        self.snaps, self.shift = True, False
+        self.notice, self.warns = "", False
 
     # -- the draft --------------------------------------------------------------------------------
 
     @property
+    def settled(self) -> Draft:
+        """The present draft; in the middle of a drag, that of before."""
+        return self._drafts[self._now]
+
+    @property
     def draft(self) -> Draft:
         """The present draft, also in the middle of a drag."""
-        return self.history.draft if self._held is None else self._held
+        return self.settled if self._held is None else self._held
 
-    def put(self, draft: Draft, tag: str = "") -> None:
-        """Continue with a draft; tag: as for `History.put`."""
-        self._held = None
-        self.history.put(draft, tag)
-        self._forget()
+    @property
+    def changed(self) -> bool:
+        """Whether the draft differs from the saved one."""
+        return self.settled is not self.saved and self.settled != self.saved
 
-    def hold(self, to: Callable[[Point, bool], Draft], point: Point, *, shift: bool) -> None:
+    def save(self, saved: Draft) -> None:
+        """Count the present draft as saved; saved: it, with the title that it has got."""
+        self._drafts[self._now] = self.saved = saved
+        self._tag = ""
+
+    def put(self, draft: Draft, tag: str = "", *, shows: bool = False) -> None:
+        """Continue with a draft. Consecutive changes with the same tag are undone as one.
+
+        shows: select what is new in it.
+        """
+        before, self._held = self.settled, None
+        if draft != before:
+            self._now += not tag or tag != self._tag
+            self._drafts, self._tag = [*self._drafts[: self._now], draft], tag
+        self._see(before if shows else draft)
+
+    def hold(self, to: Callable[[Point], Draft], point: Point) -> None:
         """Show the draft of a drag to a point; an InputError is shown, and it stays as it was."""
         if self.warns:
             self.say("")
         try:
-            self._held = to(point, shift)
+            self._held = to(point)
         except InputError as error:
             self.say(str(error), warns=True)
 
     def settle(self) -> None:
         """Continue with the draft of the drag."""
         if self._held is not None:
-            self.put_new(self._held)
-
-    def put_new(self, draft: Draft) -> None:
-        """Continue with a draft, and select its new items."""
-        before = self.history.draft
-        self.put(draft)
-        self._show(before)
+            self.put(self._held, shows=True)
 
     def drop(self) -> bool:
         """Drop the draft of the drag; return whether there was one."""
         held, self._held = self._held, None
+        self._see(self.draft)
         return held is not None
 
-    def undo(self) -> None:
-        """Undo the last change."""
-        self._go(-1, "undo")
+    def has(self, by: int) -> bool:
+        """Return whether there is a change to redo, or for a number below 0 to undo."""
+        return 0 <= self._now + by < len(self._drafts)
 
-    def redo(self) -> None:
-        """Redo the last change that was undone."""
-        self.drop()
-        self._go(1, "redo")
-
-    def _go(self, by: int, words: str) -> None:
-        before = self.draft
-        if not self.drop() and not self.history.go(by):
-            self.say(f"there is nothing to {words}")
-        self._show(before)
+    def go(self, by: int) -> None:
+        """Redo a change, or for a number below 0 undo one, if only that of a drag."""
+        before, self._tag = self.draft, ""
+        if self.drop() and by < 0:
+            pass
+        elif self.has(by):
+            self._now += by
+        else:
+            self.say(f"there is nothing to {'redo' if by > 0 else 'undo'}")
+        self._see(before)
 
     # -- the selection ----------------------------------------------------------------------------
 
@@ -144,21 +121,41 @@ class Desk:
         """The selected item, if there is exactly one."""
         return self.selection[0] if len(self.selection) == 1 else None
 
-    def _forget(self) -> None:
-        """Remove from the selection items that no longer exist."""
-        kept = tuple(item for item in self.selection if self.draft.holds(item))
+    @property
+    def corners(self) -> Outline:
+        """The corners of the selected item; none if it has none, or if several are selected."""
+        return () if self.only is None else self.draft.corners(self.only)
+
+    def _see(self, before: Draft) -> None:
+        """Select what a draft before did not have; select nothing that is no longer there."""
+        kept = tuple(item for item in self.selection if item in self.draft.things)
         if kept != self.selection:
             self.select(kept)
-        corners = None if self.only is None else self.draft.corners(self.only)
-        if self.corner is not None and self.corner >= len(corners or ()):
-            self.corner = None
-
-    def _show(self, before: Draft) -> None:
-        """Select the items that a draft before did not have, if there are such."""
-        self._forget()
         new = self.draft.new_since(before)
         if not set(new) <= set(self.selection):
             self.select(new)
+        if self.corner is not None and self.corner >= len(self.corners):
+            self.corner = None
+
+    def item_at(self, point: Point, but: Collection[Item] = ()) -> Item | None:
+        """Return the uppermost item at a point [m], or None; the workspace is never returned.
+
+        but: items that are looked through.
+        """
+        shapes = {item: s for item, s in self.draft.shapes.items() if item not in but}
+        small = [item.kind in ("waypoint", "beacon") for item in shapes]
+        gaps = shapely.distance([*shapes.values()], shapely.Point(point))
+        gaps = np.maximum(gaps - self.metres(POINT_RADIUS) * np.array(small), 0.0)
+        least = gaps.min(initial=self.metres(NEAR))
+        hit = [item for item, gap in zip(shapes, gaps, strict=True) if gap <= least]
+        return hit[-1] if hit else None
+
+    def items_within(self, a: Point, b: Point) -> list[Item]:
+        """Return the items that lie wholly in the rectangle between two corners."""
+        shapes = self.draft.shapes
+        area = shapely.box(*np.minimum(a, b), *np.maximum(a, b))
+        inside = shapely.covers(area, shapely.envelope([*shapes.values()]))
+        return [item for item, lies in zip(shapes, inside, strict=True) if lies]
 
     def say(self, text: str, *, warns: bool = False) -> None:
         """Show a text in the footer, until the next action."""
@@ -168,33 +165,29 @@ class Desk:
 
     def remove(self) -> None:
         """Remove the last touched corner, or else the selection."""
-        item = self.only
-        corners = None if item is None else self.draft.corners(item)
-        if item is None or corners is None or self.corner is None:
+        item, corners, number = self.only, self.corners, self.corner
+        if item is None or number is None:
             if self.selection:
                 self.put(self.draft.without(self.selection))
                 self.select()
             return
         least = 2 if item.kind == "wall" or len(corners) == 2 else 3
         if len(corners) == least:
-            self.say(f"{self.draft.name(item)} needs {least} corners", warns=True)
-            return
-        number, self.corner = self.corner, None
+            raise InputError(f"{self.draft.name(item)} needs {least} corners")
+        self.corner = None
         self.put(self.draft.with_corner(item, number))
 
     def duplicate(self) -> None:
         """Put a copy beside the selection, and select it; of a corner, half-way to the next one."""
-        corners = None if self.only is None else self.draft.corners(self.only)
-        if self.only is not None and corners is not None and self.corner is not None:
-            a, b = corners[self.corner], corners[(self.corner + 1) % len(corners)]
+        if self.only is not None and self.corner is not None:
+            a, b = (*self.corners, self.corners[0])[self.corner : self.corner + 2]
             middle = tidy((a[0] + b[0]) / 2), tidy((a[1] + b[1]) / 2)
+            self.put(self.draft.with_corner(self.only, self.corner, a, middle))
             self.corner += 1
-            self.put(self.draft.with_corner(self.only, self.corner - 1, a, middle))
             return
         items = [item for item in self.selection if item.kind != "workspace"]
-        if items:
-            aside = Motion(by=(2 * self.step, -2 * self.step))
-            self.put_new(self.draft.copied(items, aside))
+        aside = Motion(by=(2 * self.step, -2 * self.step))
+        self.put(self.draft.copied(items, aside), shows=True)
 
     def nudge(self, dx: int, dy: int, *, fine: bool) -> None:
         """Move the last touched corner, or else the selection, by steps of the grid.
@@ -204,7 +197,7 @@ class Desk:
         step = self.step * (0.1 if fine else 1.0)
         moved = Motion(by=(dx * step, dy * step))
         if self.corner is not None and self.only is not None:
-            place = moved.point((self.draft.corners(self.only) or ())[self.corner])
+            place = moved.point(self.corners[self.corner])
             self.put(self.draft.with_corner(self.only, self.corner, place), tag="nudge")
         elif self.selection:
             self.put(self.draft.moved(self.selection, moved), tag="nudge")
@@ -217,18 +210,13 @@ class Desk:
         return self.viewpoint.camera
 
     @property
-    def ui(self) -> float:
-        """Pixels a point."""
-        return self.viewpoint.layout.ui
-
-    @property
     def step(self) -> float:
         """The step of the grid to which points snap, metres."""
-        return grid_step(MIN_GRID_STEP * self.ui / self.camera.scale)
+        return grid_step(self.metres(MIN_GRID_STEP))
 
     def metres(self, points: float) -> float:
         """Return the length of points of the screen, metres."""
-        return points * self.ui / self.camera.scale
+        return points * self.viewpoint.layout.ui / self.camera.scale
 
     def snapped(self, point: Point) -> Point:
         """Return the nearest grid point; without snapping, the point to a fraction of a pixel."""

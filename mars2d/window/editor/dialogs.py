@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+import tempfile
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
+from itertools import chain, count
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 from mars2d.core.errors import InputError
+from mars2d.scenario import toml_file
 from mars2d.scenario.changes import check_same
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor.desk import Desk
-from mars2d.window.editor.document import Document
+from mars2d.window.screen.saving import free_name
 from mars2d.window.widgets.menu import Menu
 from mars2d.window.widgets.prompt import Answer, Prompts
-from mars2d.window.widgets.text_field import TextField
+
+UNTITLED = Scenario.__dataclass_fields__["title"].default
+Then = Callable[[], None]
 
 
 @dataclass(frozen=True)
@@ -26,10 +32,13 @@ class Outcome:
 
 
 class Dialogs(Prompts):
-    """Asks whether to save, run or apply a draft, and does it.
+    """Asks whether to save, run or apply a draft, and does it; keeps the file that it is saved to.
 
-    before: the scenario that was opened. live: whether a paused run is edited. complete: finishes
-    the outline that is being drawn. done: whether the editor is left. outcome: of a paused run.
+    complete: finishes the outline that is being drawn. path: of the file, None if it has no name
+    yet; one that does not end in .toml only lends its name. control: the law of the team. before:
+    the scenario of the paused run that is edited, None without one.
+
+    new: whether no file exists yet. done: whether the editor is left. outcome: of a paused run.
     to_run: a file that is to be run.
     """
 
@@ -37,114 +46,120 @@ class Dialogs(Prompts):
         self,
         desk: Desk,
         menu: Menu,
-        document: Document,
-        before: Scenario,
-        *,
-        live: bool,
         complete: Callable[[], object],
+        path: Path | None,
+        control: Callable[[Any], Any] | None = None,
+        before: Scenario | None = None,
     ) -> None:
-        """Start without a question."""
+        """Start without a question, and without reading or writing anything."""
         super().__init__(menu)
         self.done = False
         self.outcome: Outcome | None = None
         self.to_run: Path | None = None
-        self._desk, self._document = desk, document
-        self._before, self._live, self._complete = before, live, complete
+        self._desk, self._complete = desk, complete
+        self._before, self.control = before, control
+        self._wanted = (path or Path("scenario.toml")).with_suffix(toml_file.SUFFIX)
+        toml = path is not None and path.suffix.lower() == toml_file.SUFFIX
+        self.path = path if toml else None
+        self.new = self.path is None or not self.path.exists()
 
-    def _valid(self, doing: str) -> Scenario | None:
-        """Return the scenario; show why there is none if the draft is not valid."""
+    @property
+    def name(self) -> str:
+        """The file's name, or a proposal."""
+        return self._wanted.name
+
+    @property
+    def proposal(self) -> str:
+        """A path that is still free."""
+        others = (self._wanted.with_stem(f"{self._wanted.stem}_{k}") for k in count(2))
+        return str(next(path for path in chain([self._wanted], others) if not path.exists()))
+
+    def _valid(self, doing: str) -> Scenario:
+        """Return the scenario. Raises InputError if the draft is not valid."""
         self._complete()
         verdict = self._desk.draft.verdict
         if verdict.scenario is None:
-            self._desk.say(f"{doing}: {verdict.text}", warns=True)
+            raise InputError(f"{doing}: {verdict.text}")
         return verdict.scenario
 
     # -- save -----------------------------------------------------------------------------------
 
-    def save(self, then: Callable[[], None] | None = None) -> None:
+    def save(self, then: Then = lambda: None) -> None:
         """Save the draft, ask for a name first if there is none; then: called after saving."""
-        if self._valid("Not saved") is None:
-            return
-        if self._document.path is None:
-            self.ask(
-                "Save as",
-                Answer("save", lambda text: self._save_as(text, then)),
-                field=TextField(self._document.proposal, opened_by_key=True),
-                doc="a scenario file, in TOML",
-            )
-        elif self._document.new:
-            self._save_as(str(self._document.path), then)
-        else:
-            self._write(self._document.path, then)
-
-    def _save_as(self, text: str, then: Callable[[], None] | None) -> None:
-        path = self._document.named(text)
-        if not self._document.is_another(path):
-            self._write(path, then)
-            return
-        self.ask(
-            f"{path} is there already.",
-            Answer("overwrite it", lambda _: self._write(path, then)),
-        )
-
-    def _write(self, path: Path, then: Callable[[], None] | None = None) -> None:
         scenario = self._valid("Not saved")
-        if scenario is None:
-            return
-        try:
-            scenario, said = self._document.save(scenario, path)
-        except InputError as error:
-            self._desk.say(str(error), warns=True)
-            return
-        if not self._live:
-            self._desk.history.save(self._desk.draft.with_base(title=scenario.title))
-        self._desk.say(said)
-        if then is not None:
-            then()
+        if self.path is None:
+            answer = Answer("save", lambda text: self._save_new(scenario, _named(text), then))
+            self.ask("Save as", answer, text=self.proposal, doc="a scenario file, in TOML")
+        elif self.new:
+            self._save_new(scenario, self.path, then)
+        else:
+            self._write(scenario, self.path, then)
+
+    def _save_new(self, scenario: Scenario, path: Path, then: Then) -> None:
+        """Save to a file of a name that has just been chosen."""
+        answer = Answer("overwrite it", lambda _: self._write(scenario, path, then))
+        if path.exists():
+            self.ask(f"{path} is there already.", answer)
+        else:
+            answer.act("")
+
+    def _write(self, scenario: Scenario, path: Path, then: Then) -> None:
+        if scenario.title == UNTITLED:
+            scenario = scenario.replace(title=path.stem.replace("_", " ").capitalize())
+        missing = toml_file.save_scenario(scenario, path, self.control)
+        self.path, self._wanted, self.new = path, path, False
+        if self._before is None:
+            self._desk.save(self._desk.draft.with_base(title=scenario.title))
+        without = f", without what is code: {', '.join(missing)}" if missing else ""
+        self._desk.say(f"Saved {path}{without}")
+        then()
 
     def rescue(self) -> Path | None:
         """Save unsaved work to a new file, for when the person can no longer be asked.
 
-        The last valid draft is saved. Return the file; None if there is nothing to save.
+        The last valid draft is saved, beside the own file or in the temporary folder. Return the
+        file; None if there is nothing to save.
         """
-        history = self._desk.history
-        if self._live or not history.changed:
+        desk = self._desk
+        if self._before is not None or not desk.changed:
             return None
-        self._desk.drop()
-        while (scenario := history.draft.verdict.scenario) is None:
-            if not history.go(-1):
+        desk.drop()
+        while (scenario := desk.draft.verdict.scenario) is None:
+            if not desk.has(-1):
                 return None
-        return self._document.rescue(scenario)
+            desk.go(-1)
+        for folder in (self._wanted.parent, Path(tempfile.gettempdir())):
+            with suppress(InputError):
+                path = free_name(folder, f"{self._wanted.stem}_unsaved", toml_file.SUFFIX)
+                toml_file.save_scenario(scenario, path, self.control)
+                return path
+        return None
 
     # -- run, go on, leave ----------------------------------------------------------------------
 
     def run(self) -> None:
         """Ask for a run of the file; save it first if need be."""
-        if self._desk.history.changed or self._document.new:
+        if self._desk.changed or self.new:
             self.save(then=self.run)
         else:
-            self.to_run = self._document.path
+            self.to_run = self.path
 
     def apply(self, when: Literal["now", "start"]) -> None:
         """Leave, and continue the paused run with the draft."""
         scenario = self._valid("Not yet")
-        if scenario is None:
-            return
-        if when == "now":
+        if when == "now" and self._before is not None:
             try:
                 check_same(self._before, scenario)
             except InputError as error:
-                self._desk.say(f"{error} (Shift+Enter)", warns=True)
-                return
+                raise InputError(f"{error} (Shift+Enter)") from None
         self.outcome, self.done = Outcome(scenario, when), True
 
     def leave(self) -> None:
         """Leave; ask first if work would be lost."""
-        if not self._desk.history.changed:
-            self._discard()
-            return
         discard = Answer("discard", lambda _: self._discard(), "Backspace")
-        if self._live:
+        if not self._desk.changed:
+            self._discard()
+        elif self._before is not None:
             now = Answer("from now", lambda _: self.apply("now"))
             anew = Answer("from the start", lambda _: self.apply("start"), "Shift Enter")
             self.ask("Use what was drawn?", now, anew, discard, escape="stay")
@@ -154,3 +169,17 @@ class Dialogs(Prompts):
 
     def _discard(self) -> None:
         self.done = True
+
+
+def _named(text: str) -> Path:
+    """Return the path for a typed text. Raises InputError if it is no path of a file."""
+    if not text.strip():
+        raise InputError("expected a name, such as room.toml")
+    path = Path(text.strip()).expanduser()
+    if path.suffix.lower() != toml_file.SUFFIX:
+        path = path.with_name(path.name + toml_file.SUFFIX)
+    if path.is_dir():
+        raise InputError(f"{path}: this is a folder")
+    if not path.parent.is_dir():
+        raise InputError(f"{path}: there is no folder {path.parent}")
+    return path

@@ -7,10 +7,11 @@ from collections import Counter
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import count, groupby
+from itertools import count
 from typing import Any, Self, cast
 
 import numpy as np
+import shapely
 
 from mars2d.addons.beacon import Beacon
 from mars2d.addons.map import Map
@@ -18,11 +19,11 @@ from mars2d.addons.waypoints import Waypoints
 from mars2d.bodies.joints.base import Joint
 from mars2d.bodies.joints.hinge import Hinge
 from mars2d.bodies.props.base import Prop
-from mars2d.bodies.rigid import Rigid, Triple
+from mars2d.bodies.rigid import Rigid
 from mars2d.core import checks
 from mars2d.core.description import snake_case
 from mars2d.core.errors import InputError
-from mars2d.core.plane import Outline, Point, bounds_of
+from mars2d.core.plane import Outline, Point
 from mars2d.record.frame import Frame
 from mars2d.scenario.random_starts import RandomStarts
 from mars2d.scenario.robot import Robot
@@ -30,12 +31,9 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor.item import Item, Kind, Motion
 from mars2d.window.editor.verdict import Verdict, judge
 
-FIELDS: dict[Kind, tuple[type[Any], str]] = {
-    "robot": (Scenario, "robots"), "prop": (Scenario, "props"),
-    "outline": (Map, "outlines"), "wall": (Map, "walls"), "waypoint": (Waypoints, "routes"),
-}  # fmt: skip
-"""What holds the items of a kind, the scenario or its first add-on of a class, and in which field.
-Each beacon is an add-on of its own."""
+CORNERED: tuple[Kind, ...] = ("workspace", "outline", "wall")
+"""The kinds of items that are corners."""
+BODIES: tuple[Kind, ...] = ("robot", "prop")
 
 BLANK: Outline = Scenario.__dataclass_fields__["workspace"].default
 """The area shown of an empty draft, metres."""
@@ -50,12 +48,6 @@ class Draft:
 
     base: Scenario
 
-    @classmethod
-    def empty(cls, scenario: Scenario) -> Self:
-        """Return the draft of a scenario without its robots; no scenario can be empty."""
-        draft = cls(scenario)
-        return draft.without([item for item in draft.items() if item.kind == "robot"])
-
     def scenario(self) -> Scenario:
         """Return the scenario. Raises InputError if it is not valid."""
         return self.base.replace()
@@ -64,7 +56,9 @@ class Draft:
     def sketch(self) -> Scenario:
         """The scenario for drawing, unchecked. Never simulate it."""
         shown = self.with_base(animation=self.base.animation.replace(show_initial_pose=False)).base
-        if self.base.workspace is None and not (self.robots or self.props or shown.obstacles):
+        if self.base.workspace is None and not (
+            self.base.robots or self.base.props or shown.obstacles
+        ):
             return self.with_base(workspace=BLANK).base
         return shown
 
@@ -81,112 +75,111 @@ class Draft:
 
     def frame(self) -> Frame:
         """Return the instant before the start."""
-        pose = np.array([robot.pose for robot in self.robots], dtype=float).reshape(-1, 3).T
-        prop_pose = np.array([prop.pose for prop in self.props], dtype=float).reshape(-1, 3).T
-        nothing = np.empty((0, 3, len(self.robots)))
+        pose = np.array([robot.pose for robot in self.base.robots], dtype=float).reshape(-1, 3).T
+        prop_pose = np.array([prop.pose for prop in self.base.props], dtype=float).reshape(-1, 3).T
+        nothing = np.empty((0, 3, len(self.base.robots)))
         return Frame(self.sketch, 0.0, 0, pose, nothing, prop_pose=prop_pose)
 
     # -- its items ------------------------------------------------------------------------------
 
-    @property
-    def robots(self) -> tuple[Robot, ...]:
-        """The robots."""
-        return tuple(self.base.robots)
+    @cached_property
+    def listed(self) -> dict[Kind, tuple[Any, ...]]:
+        """What there is of each kind, the lowest first; of waypoints the routes, one per robot."""
+        base = self.base
+        chart, ways = (_first(kind, base.addons) for kind in (Map, Waypoints))
+        routes = tuple(getattr(ways, "routes", ()))[: len(base.robots)]
+        return {
+            "workspace": () if base.workspace is None else (base.workspace,),
+            "outline": tuple(getattr(chart, "outlines", ())),
+            "wall": tuple(getattr(chart, "walls", ())),
+            "prop": tuple(base.props),
+            "robot": tuple(base.robots),
+            "beacon": tuple(addon for addon in base.addons if isinstance(addon, Beacon)),
+            "waypoint": (*routes, *[()] * (len(base.robots) - len(routes))),
+            "joint": tuple(base.joints),
+        }
 
-    @property
-    def props(self) -> tuple[Prop, ...]:
-        """The props."""
-        return tuple(self.base.props)
-
-    def listed(self, kind: Kind) -> tuple[Any, ...]:
-        """Return the items of a kind; of waypoints the routes, one per robot."""
-        if kind == "beacon":
-            return tuple(addon for addon in self.base.addons if isinstance(addon, Beacon))
-        if kind == "workspace":
-            return () if self.base.workspace is None else (self.base.workspace,)
-        owner, field = self._owner(kind), FIELDS[kind][1]
-        found = () if owner is None else tuple(getattr(owner, field))
-        if kind == "waypoint":
-            robots = len(self.robots)
-            return (*found[:robots], *[()] * (robots - len(found)))
-        return found
-
-    def _owner(self, kind: Kind) -> Any:
-        """Return what holds the items of a kind, None if there is none yet."""
-        parts = (self.base, *self.base.addons)
-        return next((part for part in parts if isinstance(part, FIELDS[kind][0])), None)
+    @cached_property
+    def things(self) -> dict[Item, Any]:
+        """All items, the lowest first, and what each is: a body, corners, a beacon, a point, ..."""
+        routes = enumerate(self.listed["waypoint"])
+        plain = {
+            Item(kind, i): value
+            for kind, values in self.listed.items()
+            for i, value in enumerate(values)
+            if kind != "waypoint"
+        }
+        return plain | {Item("waypoint", i, k): p for i, way in routes for k, p in enumerate(way)}
 
     def items(self) -> tuple[Item, ...]:
-        """Return all items but the workspace, the lowest first."""
-        plain: tuple[Kind, ...] = ("outline", "wall", "prop", "robot", "beacon")
-        found = [Item(kind, i) for kind in plain for i in range(len(self.listed(kind)))]
-        routes = enumerate(self.listed("waypoint"))
-        ways = [Item("waypoint", i, k) for i, route in routes for k in range(len(route))]
-        return (*found, *ways)
+        """Return all items but the workspace and joints, the lowest first."""
+        return tuple(item for item in self.things if item.kind not in ("workspace", "joint"))
 
     def new_since(self, before: Draft) -> list[Item]:
         """Return the items that an earlier draft did not have as they are now."""
-        known = Counter(map(before._key, before.items()))
-        new = []
-        for item in self.items():
-            key = self._key(item)
-            if known[key]:
-                known[key] -= 1
-            else:
-                new.append(item)
-        return new
+        now, then = (Counter(map(draft._key, draft.items())) for draft in (self, before))
+        new = now - then
+        return [item for item in self.items() if self._key(item) in new]
 
     def _key(self, item: Item) -> tuple[object, ...]:
         """Return what tells an item from others of its kind, or from those on other routes."""
-        value = self.value(item)
-        owner = item.number if item.kind == "waypoint" else None
+        value, owner = self.things[item], item.number if item.kind == "waypoint" else None
         return item.kind, owner, value if isinstance(value, tuple) else id(value)
-
-    def value(self, item: Item) -> Any:
-        """Return what an item is: a robot, a prop, corners, a beacon, or a waypoint's point."""
-        value = self.listed(item.kind)[item.number]
-        return value[item.part] if item.kind == "waypoint" else value
-
-    def holds(self, item: Item) -> bool:
-        """Return whether an item exists."""
-        listed = self.listed(item.kind)
-        if item.number >= len(listed):
-            return False
-        return item.kind != "waypoint" or item.part < len(listed[item.number])
 
     def name(self, item: Item) -> str:
         """Return an item's name in words."""
         if item.kind == "waypoint":
-            return f"waypoint {item.part} of {self.robots[item.number].name}"
-        if item.kind == "workspace":
-            return "the workspace"
-        if item.kind in ("outline", "wall"):
-            return f"{'obstacle' if item.kind == 'outline' else 'wall'} {item.number}"
-        value = self.value(item)
+            return f"waypoint {item.part} of {self.base.robots[item.number].name}"
+        words = {"workspace": "the workspace", "outline": f"obstacle {item.number}"}
+        if item.kind in CORNERED:
+            return words.get(item.kind, f"wall {item.number}")
+        value = self.things[item]
         return value.key if item.kind == "beacon" else str(value.name)
 
-    def corners(self, item: Item) -> Outline | None:
-        """Return the corners of an outline, a wall or the workspace; None for other items."""
-        value: Outline = self.value(item)
-        return value if item.kind in ("outline", "wall", "workspace") else None
+    def names(self, items: Collection[Item]) -> set[str]:
+        """Return the names of the bodies among items."""
+        return {self.name(item) for item in items if item.kind in BODIES}
 
-    def pose(self, item: Item) -> Triple | None:
-        """Return the pose of a robot or prop; None for other items."""
-        return self.value(item).pose if item.kind in ("robot", "prop") else None
+    def corners(self, item: Item) -> Outline:
+        """Return the corners of an outline, a wall or the workspace; () of other items."""
+        return self.things[item] if item.kind in CORNERED else ()
 
     def body(self, item: Item) -> Rigid | None:
         """Return the body of a robot or prop; None for other items."""
-        return self.value(item).rigid if item.kind in ("robot", "prop") else None
+        return self.things[item].rigid if item.kind in BODIES else None
 
     def place(self, item: Item) -> Point:
         """Return the point of an item that snaps to the grid."""
-        value = self.value(item)
-        if item.kind == "waypoint":
-            return cast("Point", value)
-        if item.kind == "beacon":
-            return cast("Point", value.position)
-        pose = self.pose(item)
-        return (value or ((0.0, 0.0),))[0] if pose is None else pose[:2]
+        value = self.things[item]
+        if item.kind in BODIES:
+            return cast("Point", value.pose[:2])
+        value = value.position if item.kind == "beacon" else value
+        return cast("Point", value[0] if item.kind in CORNERED else value)
+
+    def rims(self, item: Item) -> list[tuple[Outline, float]]:
+        """Return what an item looks like: outlines, lines, or points with a radius, metres."""
+        body = self.body(item)
+        if body is None:
+            return [(self.corners(item) or (self.place(item),), 0.0)]
+        return [(tuple(map(body.to_world, rim.points)), rim.radius) for rim in body.shape.rims]
+
+    def is_line(self, item: Item) -> bool:
+        """Return whether an item is a line, with nothing inside."""
+        return item.kind == "wall" or len(self.corners(item)) == 2
+
+    @cached_property
+    def shapes(self) -> dict[Item, Any]:
+        """Where the items lie, as geometries of shapely [m], the lowest first."""
+        return {item: self.shape(item) for item in self.items()}
+
+    def shape(self, item: Item) -> Any:
+        """Return where an item lies, as a geometry of shapely [m]."""
+        line = shapely.LineString if self.is_line(item) else shapely.Polygon
+        return shapely.GeometryCollection([
+            line(points) if points[1:] else shapely.Point(points).buffer(radius)
+            if radius else shapely.Point(points)
+            for points, radius in self.rims(item)
+        ])  # fmt: skip
 
     def starts_at_random(self, item: Item) -> bool:
         """Return whether a robot or prop starts elsewhere in each run."""
@@ -194,20 +187,8 @@ class Draft:
 
     def _lots(self) -> list[tuple[RandomStarts, Sequence[str]]]:
         """Return the random starts with the names of their bodies."""
-        robots = [str(robot.name) for robot in self.robots]
+        robots = [str(robot.name) for robot in self.base.robots]
         return [(each, each.bodies or robots) for each in self.base.random_starts]
-
-    def bounds(self, items: Collection[Item]) -> tuple[float, float, float, float]:
-        """Return (xmin, xmax, ymin, ymax) of items, metres."""
-        points: list[Point] = []
-        for item in items:
-            body = self.body(item)
-            if body is None:
-                points += self.corners(item) or [self.place(item)]
-            else:
-                (x, y), r = body.bound
-                points += [(x - r, y - r), (x + r, y + r)]
-        return bounds_of(points)
 
     # -- changes --------------------------------------------------------------------------------
 
@@ -217,79 +198,58 @@ class Draft:
         base.__dict__.update(changes)
         return type(self)(base)
 
-    def with_list(self, kind: Kind, listed: Sequence[Any]) -> Self:
-        """Return the draft with other items of a kind. Raises InputError for invalid outlines."""
-        addons = list(self.base.addons)
-        if kind in ("outline", "wall", "workspace"):
-            known = set(map(id, self.listed(kind)))
-            listed = [
-                corners
-                if id(corners) in known
-                else _checked(self.name(Item(kind, i)), kind, corners)
-                for i, corners in enumerate(listed)
-            ]
-        if kind == "workspace":
-            return self.with_base(workspace=listed[0] if listed else None)
-        if kind == "beacon":
+    def changed(self, values: Mapping[Item, Any]) -> Self:
+        """Return the draft with other values of items, and with new ones; None takes an item out.
+
+        With a robot goes its route. Raises InputError for outlines that are none.
+        """
+        left = {item: v for item, v in {**self.things, **values}.items() if v is not None}
+        found: dict[str, list[Any]] = {kind: [] for kind in self.listed}
+        routes: dict[int, list[Point]] = {i.number: [] for i in left if i.kind == "robot"}
+        for item, value in left.items():
+            if item.kind == "waypoint":
+                routes.get(item.number, []).append(value)
+            elif item.kind in CORNERED and item in values:
+                found[item.kind].append(_checked(self.name(item), item, value))
+            else:
+                found[item.kind].append(value)
+        ways = [tuple(route) for route in routes.values()]
+        while ways and not ways[-1]:
+            ways.pop()
+        addons = _with_fields(self.base.addons, Waypoints, routes=ways)
+        addons = _with_fields(addons, Map, outlines=found["outline"], walls=found["wall"])
+        if tuple(found["beacon"]) != self.listed["beacon"]:
             first = next((k for k, each in enumerate(addons) if isinstance(each, Beacon)), None)
             others = [addon for addon in addons if not isinstance(addon, Beacon)]
-            first = len(others) if first is None else first
-            return self.with_base(addons=(*others[:first], *listed, *others[first:]))
-        owner, (make, field) = self._owner(kind), FIELDS[kind]
-        if owner is self.base:
-            return self.with_base(**{field: tuple(listed)})
-        if kind == "waypoint":
-            listed = [tuple(route) for route in listed]
-            while listed and not listed[-1]:
-                listed.pop()
-        fields = {name: () for kind_, name in FIELDS.values() if kind_ is make}
-        fields |= {name: getattr(owner, name) for name in fields if owner is not None}
-        fields |= {field: tuple(listed)}
-        new = []
-        if any(fields.values()):  # without items, the add-on goes
-            new = [make(**fields) if owner is None else owner.replace(**fields)]
-        place = len(addons) if owner is None else addons.index(owner)
-        return self.with_base(addons=(*addons[:place], *new, *addons[place + 1 :]))
-
-    def with_values(self, values: Mapping[Item, Any]) -> Self:
-        """Return the draft with other robots, props, beacons, points or outlines for items."""
-        draft = self
-        for kind in dict.fromkeys(item.kind for item in values):
-            listed = list(self.listed(kind))
-            for item in (item for item in values if item.kind == kind):
-                if kind == "waypoint":
-                    route = list(listed[item.number])
-                    route[item.part] = values[item]
-                    listed[item.number] = tuple(route)
-                else:
-                    listed[item.number] = values[item]
-            draft = draft.with_list(kind, listed)
-        return draft
+            addons = [*others[:first], *found["beacon"], *others[len(others[:first]) :]]
+        (workspace, *_) = (*found["workspace"], None)
+        bodies = {name: tuple(found[name[:-1]]) for name in ("robots", "props", "joints")}
+        return self.with_base(workspace=workspace, addons=tuple(addons), **bodies)
 
     def with_corner(self, item: Item, number: int, *new: Point) -> Self:
         """Return the draft with any number of corners in place of one of an outline."""
-        corners = self.corners(item) or ()
-        return self.with_values({item: (*corners[:number], *new, *corners[number + 1 :])})
+        corners = self.corners(item)
+        return self.changed({item: (*corners[:number], *new, *corners[number + 1 :])})
 
     def moved(self, items: Collection[Item], motion: Motion) -> Self:
         """Return the draft with items moved. Bodies that started at random start there now."""
-        draft = self.with_values({item: self._moved_one(item, motion) for item in items})
-        names = {self.name(item) for item in items if item.kind in ("robot", "prop")}
-        return draft._fixed(names)._pinned(names)
+        names = self.names(items)
+        return self.changed(self._moved(items, motion))._fixed(names)._pinned(names)
 
-    def _moved_one(self, item: Item, motion: Motion) -> object:
-        if item.kind == "waypoint":
-            return motion.point(self.place(item))
-        if item.kind == "beacon":
-            beacon = self.value(item)
-            if beacon.path is None:
-                return beacon.replace(at=motion.point(beacon.position))
-            return beacon.replace(path=[motion.point(point) for point in beacon.path])
-        corners = self.corners(item)
-        if corners is not None:
-            return tuple(motion.point(corner) for corner in corners)
-        body = self.value(item)
-        return body.replace(pose=motion.pose(body.pose))
+    def _moved(self, items: Collection[Item], motion: Motion) -> dict[Item, Any]:
+        """Return what items are once they are moved."""
+        values = {}
+        for item in items:
+            value, corners = self.things[item], self.corners(item)
+            if item.kind in BODIES:
+                values[item] = value.replace(pose=motion.pose(value.pose))
+            elif item.kind == "beacon" and value.path is not None:
+                values[item] = value.replace(path=[motion.point(point) for point in value.path])
+            elif item.kind == "beacon":
+                values[item] = value.replace(at=motion.point(value.position))
+            else:
+                values[item] = tuple(map(motion.point, corners)) or motion.point(value)
+        return values
 
     def _fixed(self, names: Collection[str]) -> Self:
         """Return the draft with bodies that no longer start at random."""
@@ -312,14 +272,14 @@ class Draft:
         return self.with_base(joints=tuple(map(pinned, self.base.joints)))
 
     def _members(self) -> tuple[Robot | Prop, ...]:
-        return (*self.robots, *self.props)
+        return (*self.base.robots, *self.base.props)
 
     def with_members(self, items: Collection[Item], change: Callable[[Any], Robot | Prop]) -> Self:
         """Return the draft with robots or props changed, each by a function of itself.
 
         A new name is put wherever the old one is mentioned.
         """
-        values = {item: change(self.value(item)) for item in items}
+        values = {item: change(self.things[item]) for item in items}
         draft = self
         for item, part in values.items():
             old, new = self.name(item), (part.name or "").strip()
@@ -331,76 +291,52 @@ class Draft:
                 )
             values[item] = part.replace(name=new)
             draft = draft.with_base(**draft.base.mentions(old, new))
-        draft = draft.with_values(values)
-        return draft._pinned({draft.name(item) for item in items})
+        draft = draft.changed(values)
+        return draft._pinned(draft.names(items))
 
-    def with_joint(self, joint: Joint | None, instead: Joint | None = None) -> Self:
-        """Return the draft with one more joint, or with one in place of another; None: without."""
-        new = () if joint is None else (joint,)
-        if instead is None:
-            draft = self.with_base(joints=(*self.base.joints, *new))
-            return draft._fixed({name for each in new for name in (each.a, each.b) if name})
-        kept = [new if each is instead else (each,) for each in self.base.joints]
-        return self.with_base(joints=tuple(joint for some in kept for joint in some))
+    def added(self, models: Mapping[Item, Any]) -> Self:
+        """Return the draft with one more item for each, of its kind, a waypoint on its route.
 
-    def added(self, kind: Kind, *values: Any, robot: int = 0) -> Self:
-        """Return the draft with more items of a kind. Bodies and beacons get new names.
-
-        robot: whose waypoints they are, at the end of its route.
+        Bodies and beacons get new names. Bodies that are tied no longer start at random.
         """
-        listed = list(self.listed(kind))
         taken = {part.name for part in self._members()} | {a.key for a in self.base.addons}
-        for value in values:
-            if kind == "waypoint":
-                listed[robot] = (*listed[robot], value)
-            elif kind in ("robot", "prop", "beacon"):
+        new: dict[Item, Any] = {}
+        for item, value in models.items():
+            if item.kind in (*BODIES, "beacon"):
                 names = map(f"{snake_case(type(value).__name__)}{{}}".format, count())
                 name = next(name for name in names if name not in taken)
                 taken.add(name)
-                listed.append(value.replace(name=name))
+                value = value.replace(name=name)  # noqa: PLW2901
+            if item.kind == "waypoint":
+                place = item._replace(part=len(self.things) + len(new))
             else:
-                listed.append(value)
-        return self.with_list(kind, listed)
+                place = Item(item.kind, len(self.listed[item.kind]) + len(new))
+            new[place] = value
+        joints = (value for value in new.values() if isinstance(value, Joint))
+        ends = [name for joint in joints for name in (joint.a, joint.b) if name]
+        return self.changed(new)._fixed(ends)
 
     def without(self, items: Collection[Item]) -> Self:
         """Return the draft without items; with a body go its route and its joints."""
-        gone = set(items)
-        names = {self.name(item) for item in gone if item.kind in ("robot", "prop")}
-        routes = [
-            [point for k, point in enumerate(route) if Item("waypoint", i, k) not in gone]
-            for i, route in enumerate(self.listed("waypoint"))
-            if Item("robot", i) not in gone
-        ]
-        joints = tuple(joint for joint in self.base.joints if names.isdisjoint((joint.a, joint.b)))
-        draft = self._fixed(names).with_base(joints=joints)
-        plain: tuple[Kind, ...] = ("robot", "prop", "outline", "wall", "beacon", "workspace")
-        for kind in plain:
-            listed = self.listed(kind)
-            left = [value for i, value in enumerate(listed) if Item(kind, i) not in gone]
-            if len(left) < len(listed):
-                draft = draft.with_list(kind, left)
-        return draft.with_list("waypoint", routes)
+        names, joints = self.names(items), enumerate(self.base.joints)
+        untied = [Item("joint", k) for k, j in joints if not names.isdisjoint((j.a, j.b))]
+        return self._fixed(names).changed(dict.fromkeys([*items, *untied]))
 
     def copied(self, items: Collection[Item], motion: Motion) -> Self:
         """Return the draft with moved copies of items, tied to each other as these are."""
-        draft, names = self, dict[str | None, str | None]({None: None})
-
-        def family(item: Item) -> tuple[Kind, int]:
-            return item.kind, item.number * (item.kind == "waypoint")
-
-        for (kind, robot), group in groupby(sorted(items), family):
-            models = [*group]
-            moved = (self._moved_one(item, motion) for item in models)
-            draft = draft.added(kind, *moved, robot=robot)
-            if kind in ("robot", "prop"):
-                copies = draft.listed(kind)[-len(models) :]
-                names |= {self.name(m): new.name for m, new in zip(models, copies, strict=True)}
-        for joint in self.base.joints:
+        items = sorted(items)
+        draft, names = self.added(self._moved(items, motion)), dict[str | None, str | None]()
+        for kind in BODIES:
+            models = [self.name(item) for item in items if item.kind == kind]
+            copies = [part.name for part in draft.listed[kind][len(self.listed[kind]) :]]
+            names |= dict(zip(models, copies, strict=True))
+        names[None], joints = None, {}
+        for k, joint in enumerate(self.base.joints):
             if joint.a in names and joint.b in names:
                 at = motion.point(joint.anchor_b) if joint.b is None else joint.anchor_b
-                copy_ = joint.replace(a=names[joint.a], b=names[joint.b], anchor_b=at)
-                draft = draft.with_joint(copy_)
-        return draft
+                ends = {"a": names[joint.a], "b": names[joint.b], "anchor_b": at}
+                joints[Item("joint", k)] = joint.replace(**ends)
+        return draft.added(joints)
 
 
 def seen_from(body: Rigid | None, point: Point) -> Point:
@@ -412,7 +348,24 @@ def seen_from(body: Rigid | None, point: Point) -> Point:
     return back.point(point)
 
 
-def _checked(name: str, kind: Kind, corners: Any) -> Outline:
-    """Return the corners of an outline, a wall or the workspace; InputError if it is none."""
-    least = 3 if kind == "workspace" else 2
-    return checks.outline(name, corners, least, closed=kind != "wall")
+def _first(kind: type[Any], addons: Sequence[Any]) -> Any:
+    """Return the first add-on of a class, None if there is none."""
+    return next((addon for addon in addons if isinstance(addon, kind)), None)
+
+
+def _with_fields(addons: Sequence[Any], kind: type[Any], **fields: list[Any]) -> list[Any]:
+    """Return add-ons, the first of a class with other items in its fields; without any, it goes."""
+    owner = _first(kind, addons)
+    if all(items == [*getattr(owner, name, ())] for name, items in fields.items()):
+        return [*addons]
+    new = []
+    if any(fields.values()):
+        new = [kind(**fields) if owner is None else owner.replace(**fields)]
+    place = len(addons) if owner is None else addons.index(owner)
+    return [*addons[:place], *new, *addons[place + 1 :]]
+
+
+def _checked(name: str, item: Item, corners: Any) -> Outline:
+    """Return the corners of an item; InputError if it is none."""
+    least = 3 if item.kind == "workspace" else 2
+    return checks.outline(name, corners, least, closed=item.kind != "wall")

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import partial
 from math import radians
 from pathlib import Path
 from typing import Any
 
 import pygame
 
-from mars2d.bodies.joints.base import Joint
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.plane import Point, rectangle
 from mars2d.core.scene import Scene
@@ -23,22 +21,12 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor.actions import TOOLS, actions_of
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.dialogs import Dialogs
-from mars2d.window.editor.document import Document
 from mars2d.window.editor.draft import Draft
-from mars2d.window.editor.handles import (
-    NOTCH,
-    draw_culprits,
-    draw_remarks,
-    draw_selected,
-    ring_of,
-)
-from mars2d.window.editor.header import Header
+from mars2d.window.editor.grips import NOTCH, ring_of
 from mars2d.window.editor.item import Item, Motion
-from mars2d.window.editor.placing import Tie
+from mars2d.window.editor.marks import draw_marks, draw_remarks, minus
 from mars2d.window.editor.properties import Properties
-from mars2d.window.editor.readout import minus
-from mars2d.window.editor.select import Select
-from mars2d.window.editor.tool import Tool
+from mars2d.window.editor.tools import Tool
 from mars2d.window.editor.verdict import Verdict
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.viewpoint import Viewpoint, wheel_notches
@@ -48,22 +36,21 @@ from mars2d.window.widgets.help import Help
 from mars2d.window.widgets.menu import Menu
 from mars2d.window.widgets.prompt import Answer
 from mars2d.window.widgets.slider import draw_tooltip
-from mars2d.window.widgets.text_field import TextField
 
 NUDGES = {"←": (-1, 0), "→": (1, 0), "↑": (0, 1), "↓": (0, -1)}
 HEADER = ("undo", "redo", "start", "now", "save", "run")
 """The actions with buttons in the header, where they are offered."""
+BUTTONS = 0.5
+"""The share of the header in which buttons begin; the rest is for the title."""
 WIDTH, SIDE = 58.0, 46.0
 """The widths of the toolbar and of its buttons, points."""
-TALL, MAX_SHARE = 560.0, 0.15
-"""The height from which on the toolbar has one column, points, and its largest share of the
-window's width."""
-PANEL, MAX_PANEL, ARENA = 268.0, 0.34, 0.42
+TALL, MAX_SHARE, NARROW = 560.0, 0.11, 96.0
+"""The height from which on the toolbar has one column, points; its largest share of the window's
+width, and the width that it may always have, pixels."""
+PANEL, MAX_PANEL, ARENA = 268.0, 0.34, 0.405
 """The width of the panel, points, its largest share of the window's width, and the share of the
 window that it leaves to the drawing."""
-ROOMY = 800.0
-"""The width from which on the footer has room for one more hint, points."""
-PANEL_HINT = "Arrows choose a row, Enter opens it, Esc leaves the panel"
+PANEL_HINT = "Arrows choose a row, Enter opens it, Esc leaves"
 STEP = 16.0
 """The height of the line below them, with the step of the grid, points."""
 LAYERS = Layers(trails=False, sensors=False, messages=False)
@@ -95,40 +82,45 @@ class Editor:
         self.looks, self.live = looks, live
         painter = self.painter = looks.painter
         self.help = Help()
-        self.document = Document(path, control)
-        draft = Draft.empty(scenario) if empty else Draft(scenario)
+        draft = Draft(scenario)
+        if empty:  # no scenario can be without robots
+            draft = draft.without([item for item in draft.items() if item.kind == "robot"])
         self.viewpoint = Viewpoint(draft.sketch, self._laid_out((1280, 720)))
         self.desk = Desk(draft, self.viewpoint)
         if changed:
-            self.desk.history.saved = None
+            self.desk.saved = None
         self.menu, self.panel = Menu(), Menu(docked=True)
         self.dialogs = Dialogs(
-            self.desk, self.menu, self.document, scenario,
-            live=live, complete=lambda: self.tool.confirm(),  # noqa: PLW0108
+            self.desk, self.menu, lambda: self.tool.confirm(),  # noqa: PLW0108
+            path, control, scenario if live else None,
         )  # fmt: skip
-        self.properties = Properties(
-            self.desk, self.dialogs, self.document, self.menu, self.panel,
-            self.choose, self._tie, self._touch,
-        )  # fmt: skip
+        self.properties = Properties(self)
         self._stage = Stage(painter)
         self._pointer = (-1, -1)
         self._dragging = self._panning = False
         self._held: set[int] = set()
-        self.names = len(draft.robots) + len(draft.props) <= MAX_NAMED
+        self.names = len(draft.base.robots) + len(draft.base.props) <= MAX_NAMED
         self._plain = False  # whether only the add-ons that can be edited are drawn
-        self.tool_name = "select"
-        self.tool: Tool = Select(self.desk)
+        self.tool_name, self.tool = "", Tool(self.desk)
+        self.choose("select")
         self.groups = actions_of(self)
         self._actions = {action.name: action for group in self.groups.values() for action in group}
         tools = [self.groups["Tools"], [self._actions["snap"]]]
         self._toolbar = Buttons(tools, side=SIDE, lettered=True)
         in_header = [self._actions[name] for name in HEADER if name in self._actions]
-        self._header = Header([in_header])
+        self._header = Buttons([in_header])
 
     @property
     def title(self) -> str:
         """The text of the header."""
-        return self.desk.draft.base.title if self.live else self.document.name
+        return self.desk.draft.base.title if self.live else self.dialogs.name
+
+    @property
+    def note(self) -> str:
+        """What is to be said of the title."""
+        if self.live:
+            return "the run is paused"
+        return "not saved yet" if self.desk.changed else "new" * self.dialogs.new
 
     @property
     def layout(self) -> Layout:
@@ -139,7 +131,7 @@ class Editor:
     def verdict(self) -> Verdict:
         """The verdict on the drawing; in the middle of a drag, that of before."""
         desk = self.desk
-        return (desk.history.draft if self._dragging else desk.draft).verdict
+        return (desk.settled if self._dragging else desk.draft).verdict
 
     # -- events ---------------------------------------------------------------------------------
 
@@ -151,6 +143,7 @@ class Editor:
             self.desk.say(str(error), warns=True)
 
     def _take(self, event: pygame.Event) -> None:
+        self.desk.shift = not self._held.isdisjoint((pygame.K_LSHIFT, pygame.K_RSHIFT))
         if self.menu.handle(event):
             pass
         elif event.type == pygame.KEYDOWN:
@@ -209,35 +202,28 @@ class Editor:
             self.panel.handle(event)
         elif self._toolbar.handle(event) or self._header.handle(event):
             pass
-        elif event.button == pygame.BUTTON_LEFT and self.layout.plot.collidepoint(event.pos):
-            self._press_left(event.pos)
-        elif event.button == pygame.BUTTON_MIDDLE:
+        elif event.button == pygame.BUTTON_MIDDLE or pygame.K_SPACE in self._held:
             self._panning = True
+        elif event.button == pygame.BUTTON_LEFT and self.layout.plot.collidepoint(event.pos):
+            self._dragging, self.panel.focused = True, False
+            self.tool.press(self._world(event.pos))
         elif event.button == pygame.BUTTON_RIGHT and not self.tool.confirm():
             self.tool.cancel()
-
-    def _press_left(self, pixel: tuple[int, int]) -> None:
-        if pygame.K_SPACE in self._held:
-            self._panning = True
-            return
-        self._dragging, self.panel.focused = True, False
-        self.tool.press(self._world(pixel), shift=self._shift)
 
     def _move(self, event: pygame.Event) -> None:
         self._pointer = event.pos
         if self._panning:
             self.viewpoint.pan(*event.rel)
         elif self._dragging or self.layout.plot.collidepoint(event.pos):
-            self.tool.move(self._world(event.pos), shift=self._shift)
+            self.tool.move(self._world(event.pos))
         else:
             self.tool.pointer = None
 
     def _release(self, event: pygame.Event) -> None:
-        if self._panning and event.button in (pygame.BUTTON_LEFT, pygame.BUTTON_MIDDLE):
-            self._panning = False
-        elif self._dragging and event.button == pygame.BUTTON_LEFT:
+        self._panning = False
+        if self._dragging and event.button == pygame.BUTTON_LEFT:
             self._dragging = False
-            self.tool.release(self._world(event.pos), shift=self._shift)
+            self.tool.release()
 
     def _let_go(self) -> None:
         """Cancel the drag."""
@@ -249,26 +235,21 @@ class Editor:
         ((x, y),) = self.desk.camera.to_world([pixel]).tolist()
         return x, y
 
-    @property
-    def _shift(self) -> bool:
-        return not self._held.isdisjoint((pygame.K_LSHIFT, pygame.K_RSHIFT))
-
     # -- tools and changes ----------------------------------------------------------------------
 
     def choose(self, name: str) -> None:
-        """Take up a tool."""
+        """Take up a tool of the toolbar."""
+        words, make = next((words, make) for tool, _, words, make, _ in TOOLS if tool == name)
+        self.take_up(name, make(self.desk))
+        self.tool.hint = f"{words[0].upper()}{words[1:]}"
+
+    def take_up(self, name: str, tool: Tool) -> None:
+        """Take up a tool that has been made."""
         self.tool.cancel()
         self.panel.focused = False
-        made = next(make for tool, _, make, _ in TOOLS if tool == name)
-        self.tool_name, self.tool = name, made(self.desk)
+        self.tool_name, self.tool = name, tool
         if self.layout.plot.collidepoint(self._pointer):
             self.tool.pointer = self._world(self._pointer)
-
-    def _tie(self, kind: type[Joint], items: tuple[Item, ...]) -> None:
-        """Let the person choose what items are tied to by a joint of a kind."""
-        self.tool.cancel()
-        self.tool_name, self.panel.focused = "tie", False
-        self.tool = Tie(self.desk, kind, items, lambda: self.choose("select"))
 
     def select_all(self) -> None:
         """Select all items."""
@@ -278,10 +259,10 @@ class Editor:
     def select_workspace(self) -> None:
         """Select the workspace; make one round all that there is if there is none."""
         self.choose("select")
-        draft, desk = self.desk.draft, self.desk
-        if draft.base.workspace is None:
-            desk.put(draft.with_list("workspace", [rectangle(*draft.sketch.bounds)]))
-        desk.select([Item("workspace")])
+        draft, desk, item = self.desk.draft, self.desk, Item("workspace")
+        if item not in draft.things:
+            desk.put(draft.changed({item: rectangle(*draft.sketch.bounds)}))
+        desk.select([item])
 
     def select_next(self, *, too: bool = False) -> None:
         """Select the item after that selected last, after the last the first; too: one more."""
@@ -290,33 +271,19 @@ class Editor:
         self.choose("select")
         self.desk.select([*chosen * too, *items[place % max(1, len(items)) :][:1]])
 
-    def _touch(self, corner: int) -> None:
-        """Choose a corner of the selection, and ask where it lies."""
-        if self.tool_name != "select":
-            self.choose("select")
-        self.desk.corner = corner
-        self.ask_pose()
-
     def ask_pose(self) -> None:
         """Ask where to put the selection, or a new item."""
         if self.tool_name == "select" and not self.desk.selection:
-            self.desk.say("select something first, or choose a tool that places items", warns=True)
-            return
-        enter = Answer("apply", self._put)
-        self.dialogs.ask(
-            "x y [degrees] =",
-            enter,
-            field=TextField(opened_by_key=True),
-            doc="such as 1.5 2 90, or the name of a thing that is there",
-        )
+            raise InputError("select something first, or choose a tool that places items")
+        doc = "such as 1.5 2 90, or the name of a thing that is there"
+        self.dialogs.ask("x y [degrees] =", Answer("apply", self._put), text="", doc=doc)
 
     def _put(self, text: str) -> None:
         """Put the selection, or a new item, at typed numbers or where a thing of a name is."""
         draft = self.desk.draft
-        named = (draft.place(item) for item in draft.items() if draft.name(item) == text.strip())
-        place = next(named, None)
-        if place is not None:
-            self.tool.put(*place, None)
+        named = {draft.name(item): draft.place(item) for item in draft.items()}
+        if text.strip() in named:
+            self.tool.put(*named[text.strip()], None)
             return
         try:
             x, y, *rest = map(float, text.replace(",", " ").split())
@@ -329,15 +296,14 @@ class Editor:
         """Turn the selection: 1 is counter-clockwise, -1 clockwise; fine: by one degree."""
         ring, desk = ring_of(self.desk), self.desk
         if ring is None:
-            desk.say("select something that has a direction first", warns=True)
-            return
+            raise InputError("select something that has a direction first")
         motion = Motion(radians(way * (1.0 if fine else NOTCH)), ring.center)
         desk.put(desk.draft.moved(desk.selection, motion), tag="turn")
 
     def undo(self) -> None:
         """Remove the last corner of the outline being drawn, or else undo the last change."""
         if not self.tool.back():
-            self.desk.undo()
+            self.desk.go(-1)
 
     # -- the view -------------------------------------------------------------------------------
 
@@ -350,7 +316,7 @@ class Editor:
     def _laid_out(self, size: tuple[int, int]) -> Layout:
         layout = self.looks.layout(size)
         room, columns = layout.plot.copy(), 1.0 if layout.plot.height >= TALL * layout.ui else 1.6
-        left = round(min(columns * WIDTH * layout.ui, MAX_SHARE * size[0]))
+        left = round(min(columns * WIDTH * layout.ui, max(MAX_SHARE * size[0], NARROW)))
         room.left, room.width = left, max(1, room.width - left)
         free = room.width - ARENA * size[0] * size[1] / room.height
         room.width -= round(max(1, min(PANEL * layout.ui, MAX_PANEL * size[0], free)))
@@ -390,7 +356,7 @@ class Editor:
         self._draw_tools(surface, side)
         right = pygame.Rect(plot.right, plot.top, surface.get_width() - plot.right, plot.height)
         self.panel.draw(surface, right, self.painter)
-        self._header.draw_bar(surface, bar, self.painter, self.title, self._note(), self._pointer)
+        self._draw_header(surface)
         self._draw_foot(surface)
         if self.tool.remark:
             x, y = (each + round(16 * self.layout.ui) for each in self._pointer)
@@ -399,6 +365,38 @@ class Editor:
             self._toolbar.draw_tip(surface, self.painter, self._pointer)
         self.menu.draw(surface, surface.get_rect(), self.painter)
         self.help.draw(surface, self.layout, self.painter, self.groups.items())
+
+    def _draw_header(self, surface: pygame.Surface) -> None:
+        """Draw the title, what is to be said of it, and buttons at the right as far as they fit."""
+        painter, theme, ui = self.painter, self.painter.theme, self.painter.ui
+        bar, fonts, pad = self.layout.header, painter.fonts, round(20 * ui)
+        surface.fill(theme.bar, bar)
+        surface.fill(theme.edge, (bar.left, bar.bottom - 1, bar.width, 1))
+        right, places, note = bar.right - pad, self._header.places, self.note
+        places.clear()
+        for name in reversed([name for name in HEADER if name in self._actions]):
+            action = self._actions[name]
+            if right < (1 - BUTTONS) * bar.width:
+                break  # the keys have all of them
+            first, works = action.lit, action.works
+            color = theme.running.ink if first else theme.text if works else theme.key_edge
+            wide = fonts.width(action.title, 15 * ui, bold=first) + 22 * ui
+            place = places[name] = pygame.Rect(0, 0, round(wide), round(32 * ui))
+            place.midright = (right, bar.centery)
+            hover = works and place.collidepoint(self._pointer)
+            fill = theme.running.pale if first or hover else theme.key
+            painter.panel(surface, place, fill, 7 * ui, theme.selected if hover else theme.key_edge)
+            painter.write(surface, action.title, 15 * ui, color, bold=first, center=place.center)
+            right = place.left - round(8 * ui)
+        room = right - 2 * pad - fonts.width(note, 14 * ui) - 12 * ui
+        title, at = (
+            fonts.shorten(self.title, 20 * ui, room, bold=True),
+            (bar.left + pad, bar.centery),
+        )
+        place = painter.write(surface, title, 20 * ui, theme.ink, bold=True, midleft=at)
+        if room > 0:
+            beside = (place.right + 12 * ui, bar.centery + 2 * ui)
+            painter.write(surface, note, 14 * ui, theme.muted, midleft=beside)
 
     def _draw_tools(self, surface: pygame.Surface, side: pygame.Rect) -> None:
         """Draw the buttons of the tools, and the step of the grid below them."""
@@ -415,50 +413,41 @@ class Editor:
     def _draw_plot(self, surface: pygame.Surface) -> None:
         scene = Scene()
         draft = self.desk.draft
-        draw_selected(draft, self.desk.selection, scene)
-        draw_culprits(draft, self.verdict.culprits, scene)
+        draw_marks(draft, self.desk.selection, self.verdict.culprits, scene)
         self.tool.draw(scene)
         plot, camera = self.layout.plot, self.desk.camera
         frame = (draft.bare if self._plain else draft).frame()
         if self.names:
             draw_remarks(draft, self.properties.idle(draft), scene)
         layers, hurried = LAYERS.switched(names=self.names), self.viewpoint.hurried
-        draw = partial(self._stage.draw, marks=scene.shapes, hurried=hurried)
         try:
-            draw(surface, frame, camera, layers, plot)
+            self._stage.draw(
+                surface, frame, camera, layers, plot, marks=scene.shapes, hurried=hurried
+            )
         except Mars2dError as error:  # raised by another add-on's drawing
             if self._plain:
                 raise
             self._plain = True
             self.desk.say(f"Other add-ons are not drawn: {error}", warns=True)
-            draw(surface, draft.bare.frame(), camera, layers, plot)
+            self._draw_plot(surface)
 
     def _draw_foot(self, surface: pygame.Surface) -> None:
         """Draw what to do, or over the foot of the drawing a message of any length."""
         desk, verdict, layout = self.desk, self.verdict, self.layout
         text = PANEL_HINT if self.panel.focused else self.tool.hint
         banner = Banner(desk.notice, error=desk.warns) if desk.notice else None
-        if banner is None and verdict.faults and desk.draft.robots:
+        if banner is None and verdict.text and desk.draft.base.robots:
             banner = Banner(verdict.text, error=True)
-        elif verdict.faults and self.tool_name == "select":
+        elif verdict.text and self.tool_name == "select":
             text = verdict.text[:1].upper() + verdict.text[1:]
         hints = [*[("Esc", "leaves")] * self.live, ("F1", "all keys")]
         if layout.plot.collidepoint(self._pointer):
             x, y = desk.snapped(self._world(self._pointer))
             hints = [("", minus(f"x {x:g} m   y {y:g} m"))]
-        wide = surface.get_width() >= ROOMY * layout.ui
-        if wide and self.tool_name != "select" and not self.panel.focused:
+        if self.tool_name != "select" and not self.panel.focused:
             hints = [("=", "types a place"), *hints]
         size, looks = surface.get_size(), self.looks
-        height = round(
-            footer_height(banner, size, self.painter, looks.text, looks.scale) * layout.ui
-        )
+        points = footer_height(banner, size, self.painter, looks.text, looks.scale)
+        height = round(points * layout.ui)
         bar = pygame.Rect(0, layout.footer.bottom - height, size[0], height)
         draw_footer(surface, replace(layout, footer=bar), self.painter, banner, text, hints)
-
-    def _note(self) -> str:
-        if self.live:
-            return "the run is paused"
-        if self.desk.history.changed:
-            return "not saved yet"
-        return "new" if self.document.new else ""

@@ -7,7 +7,7 @@ from typing import Literal, NamedTuple
 
 from mars2d.core.plane import Point
 
-Kind = Literal["robot", "prop", "outline", "wall", "waypoint", "beacon", "workspace"]
+Kind = Literal["robot", "prop", "outline", "wall", "waypoint", "beacon", "workspace", "joint"]
 
 
 class Item(NamedTuple):

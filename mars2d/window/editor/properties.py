@@ -6,9 +6,8 @@ import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from mars2d.bodies.joints.base import Joint
 from mars2d.core.description import Description, schema_of
 from mars2d.core.errors import counted
 from mars2d.core.files import file_beside
@@ -24,15 +23,16 @@ from mars2d.scenario.registry import members
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
-from mars2d.window.editor.desk import Desk
-from mars2d.window.editor.dialogs import Dialogs
-from mars2d.window.editor.document import Document
-from mars2d.window.editor.draft import Draft
+from mars2d.window.editor.draft import BODIES, Draft
 from mars2d.window.editor.item import Item
-from mars2d.window.editor.readout import described, minus
-from mars2d.window.widgets.menu import CHOSEN, Entry, Menu
+from mars2d.window.editor.marks import described, minus
+from mars2d.window.editor.tools import Tie
+from mars2d.window.widgets.menu import CHOSEN, Entry
 from mars2d.window.widgets.prompt import Answer
-from mars2d.window.widgets.text_field import TextField
+
+if TYPE_CHECKING:
+    from mars2d.bodies.joints.base import Joint
+    from mars2d.window.editor.editor import Editor
 
 Items = tuple[Item, ...]
 Field = dataclasses.Field[Any]
@@ -54,10 +54,8 @@ AUTOMATIC = "automatic"
 NO_LAW = "none: it stands still"
 GIVEN = 0.5
 """The value of a sensor's number that has no default."""
-MOST = 19
-"""The longest value beside its title, letters; others stand below it."""
-MAX_IDLE = 6
-"""The most robots that are listed because they stand still."""
+ROOM = 25
+"""How many letters of a title and its value stand in one line; longer values stand below it."""
 
 
 class Subject(NamedTuple):
@@ -89,15 +87,12 @@ class Subject(NamedTuple):
     @property
     def plain(self) -> dict[str, Field]:
         """The fields that all parts have and that can be typed or chosen, by their names."""
-        if not all(map(dataclasses.is_dataclass, self.parts)):
-            return {}
-        known = [{field.name: field for field in dataclasses.fields(part)} for part in self.parts]
+        first = self.parts[0]
         return {
-            name: field
-            for name, field in known[0].items()
-            if name not in ELSEWHERE
-            and all(name in each for each in known)
-            and all(_is_plain(getattr(part, name)) for part in self.parts)
+            field.name: field
+            for field in (dataclasses.fields(first) if dataclasses.is_dataclass(first) else ())
+            if field.name not in ELSEWHERE
+            and all(_is_plain(getattr(part, field.name, ...)) for part in self.parts)
         }
 
     def in_words(self, field: Field) -> str:
@@ -110,27 +105,12 @@ class Properties:
 
     A row shows a plain field, by the field's own metadata, or a part, such as a drive or a sensor:
     its menu offers others in its place, and has the fields of the part.
-
-    panel: shows them. menu: opens below one of them. choose: takes up a tool by its name. tie: lets
-    a person choose what some items are tied to. touch: asks where a corner of the selection lies.
     """
 
-    def __init__(
-        self,
-        desk: Desk,
-        dialogs: Dialogs,
-        document: Document,
-        menu: Menu,
-        panel: Menu,
-        choose: Callable[[str], None],
-        tie: Callable[[type[Joint], Items], None],
-        touch: Callable[[int], None],
-    ) -> None:
-        """Take the parts of the editor that it works with."""
-        self._desk, self._dialogs, self._document = desk, dialogs, document
-        self._menu, self._panel = menu, panel
-        self._choose, self._tie, self._touch = choose, tie, touch
-        panel.open("properties", self.rows, (0, 0), stays=True)
+    def __init__(self, editor: Editor) -> None:
+        """Show them in the editor's panel."""
+        self._editor, self._desk, self._dialogs = editor, editor.desk, editor.dialogs
+        editor.panel.open("properties", self.rows, (0, 0), stays=True)
 
     # -- subjects -------------------------------------------------------------------------------
 
@@ -147,7 +127,7 @@ class Properties:
 
     def _members(self, items: Items) -> Subject:
         draft, put = self._desk.draft, self._desk.put
-        parts = [draft.value(item) for item in items]
+        parts = [draft.things[item] for item in items]
         return Subject(parts, lambda f: put(draft.with_members(items, f)))
 
     def _sensors(self, robots: Items, key: str) -> Subject:
@@ -161,21 +141,36 @@ class Properties:
         parts = [robot.sensor(key) for robot in whole.parts]
         return Subject(parts, lambda f: whole.change(partial(changed, f)))
 
-    def _joint(self, joint: Joint) -> Subject:
+    def _joint(self, item: Item, joint: Joint) -> Subject:
         draft, put = self._desk.draft, self._desk.put
-        return Subject([joint], lambda f: put(draft.with_joint(f(joint), instead=joint)))
+        return Subject([joint], lambda f: put(draft.changed({item: f(joint)})))
 
     # -- rows -----------------------------------------------------------------------------------
 
     def rows(self) -> list[Entry]:
         """Return the rows about the selection, or about the scenario."""
-        if not self._desk.selection:
-            return self._rows_of_scenario()
-        first, *others = described(self._desk)
-        rows = [Entry(first), *(Entry(line, tone="note") for line in others)]
-        bodies = tuple(item for item in self._desk.selection if item.kind in ("robot", "prop"))
+        draft, items, select = self._desk.draft, self._desk.selection, self._desk.select
+        if not items:
+            return [
+                Entry("The scenario"),
+                *self._fields(self._scenario()),
+                *(
+                    Entry(f"{draft.base.robots[i].name} lacks {want}",
+                          partial(select, [Item("robot", i)]), tone="warning")
+                    for i, want in self.idle(draft).items()
+                ),
+            ]  # fmt: skip
+        rows = [Entry(counted(len(items), "thing"))]
+        if len(items) == 1:  # without the size of a body, which has rows of its own
+            first, *others = described(draft, items[0])[:3]
+            rows = [Entry(first), *(Entry(line, tone="note") for line in others)]
+        rows += [
+            Entry(f"Corner {k}", partial(self._touch, k), value=minus(f"{x:.4g}, {y:.4g} m"))
+            for k, (x, y) in enumerate(self._desk.corners)
+        ]
+        bodies = tuple(item for item in items if item.kind in BODIES)
         if not bodies:
-            return [*rows, *self._rows_of_corners()]
+            return rows
         if all(item.kind == "robot" for item in bodies):
             rows += self._rows_of_robots(bodies)
         owners = self._members(bodies)
@@ -183,45 +178,38 @@ class Properties:
         known += ["diameter"] if any(getattr(p, "shape", None) for p in owners.parts) else []
         return [*rows, *self._rows_of_joints(bodies), *self._fields(owners, but=known)]
 
-    def _rows_of_scenario(self) -> list[Entry]:
-        draft = self._desk.draft
-        rows = [Entry("The scenario"), *self._fields(self._scenario())]
-        idle = self.idle(draft)
-        for i, want in list(idle.items())[:MAX_IDLE]:
-            words, select = f"{draft.robots[i].name} lacks {want}", self._desk.select
-            rows.append(Entry(words, partial(select, [Item("robot", i)]), tone="warning"))
-        if len(idle) > MAX_IDLE:
-            more = counted(len(idle) - MAX_IDLE, "more robot")
-            rows.append(Entry(f"and {more} that stand still", tone="warning"))
-        return rows
-
     def idle(self, draft: Draft) -> dict[int, str]:
         """Return what each robot of a draft lacks to be moved, by its number."""
-        return standing_still(draft.sketch, self._document.control)
+        return standing_still(draft.sketch, self._dialogs.control)
 
-    def _rows_of_corners(self) -> list[Entry]:
-        item = self._desk.only
-        corners = None if item is None else self._desk.draft.corners(item)
-        return [
-            Entry(f"Corner {k}", partial(self._touch, k), value=minus(f"{x:.4g}, {y:.4g} m"))
-            for k, (x, y) in enumerate(corners or ())
-        ]
+    def _touch(self, corner: int) -> None:
+        """Choose a corner of the selection, and ask where it lies."""
+        if self._editor.tool_name != "select":
+            self._editor.choose("select")
+        self._desk.corner = corner
+        self._editor.ask_pose()
+
+    def _tie(self, items: Items, kind: type[Joint]) -> None:
+        """Let the person choose what items are tied to by a joint of a kind."""
+        tool = Tie(self._desk, kind, items, lambda: self._editor.choose("select"))
+        self._editor.take_up("tie", tool)
 
     def _rows_of_robots(self, robots: Items) -> list[Entry]:
         whole, idle = self._members(robots), self.idle(self._desk.draft)
         laws, drives = whole.part("controller"), whole.part("drive")
-        title = _alike([self._title_of(law) for law in laws.parts])
-        rows = [self._part("Law", title, laws, self._laws(robots))]
+        without = "that of the team" if self._dialogs.control is not None else NO_LAW
+        titles = [getattr(law, "title", law and name_of(law)) or without for law in laws.parts]
+        rows = [self._part("Law", _alike(titles), laws, self._laws(robots))]
         wants = [idle[item.number] for item in robots if item.number in idle]
         if wants:
-            rows.append(Entry(f"stands still: it lacks {wants[0]}", level=1, tone="warning"))
+            rows.append(Entry(f"stands still, lacks {wants[0]}", level=1, tone="warning"))
         title = _alike([type(drive).__name__ for drive in drives.parts])
         give = lambda kind: drives.change(partial(_driven, kind))  # noqa: E731
         rows.append(
             self._part("Drive", title, drives, _listed(members("bodies"), give, drives.kind))
         )
-        act = partial(self._offer, "Add a sensor", members("sensors"), partial(_add_sensor, whole))
-        rows.append(Entry("Sensors", act, value="add one"))
+        kinds = _listed(members("sensors"), partial(_add_sensor, whole))
+        rows.append(Entry("Sensors", partial(self._open, "Add a sensor", kinds), value="add one"))
         first, *others = whole.parts
         for sensor in first.sensors:
             if all(robot.sensor(sensor.key) for robot in others):
@@ -229,23 +217,15 @@ class Properties:
                 rows.append(self._part(sensor.key, type(sensor).__name__, subject))
         return rows
 
-    def _title_of(self, law: object) -> str:
-        """Return a law in words."""
-        if isinstance(law, Controller):
-            return law.title
-        if callable(law):
-            return name_of(law)
-        return "that of the team" if self._document.control is not None else NO_LAW
-
     def _rows_of_joints(self, bodies: Items) -> list[Entry]:
-        kinds, draft = members("joints"), self._desk.draft
-        act = partial(self._offer, "Tie it by a", kinds, lambda kind: self._tie(kind, bodies))
-        rows = [Entry("Joints", act, value="add one")]
+        kinds, draft = _listed(members("joints"), partial(self._tie, bodies)), self._desk.draft
+        rows = [Entry("Joints", partial(self._open, "Tie it by a", kinds), value="add one")]
         name = draft.name(bodies[0])
-        for joint in draft.base.joints if len(bodies) == 1 else ():
+        for k, joint in enumerate(draft.base.joints if len(bodies) == 1 else ()):
             if name in (joint.a, joint.b):
                 kind, other = type(joint).__name__, joint.b if joint.a == name else joint.a
-                rows.append(self._part(f"{kind} to {other or 'the floor'}", "", self._joint(joint)))
+                subject = self._joint(Item("joint", k), joint)
+                rows.append(self._part(f"{kind} to {other or 'the floor'}", "", subject))
         return rows
 
     def _part(
@@ -262,34 +242,32 @@ class Properties:
         )
         entries = others or [Entry("Remove it", partial(subject.change, lambda _: None))]
         entries = [*entries, *[Entry("Fields")] * bool(fields), *fields]
-        act, more = partial(self._open, title, entries), minus(", ".join(words))
-        return Entry(title, act, value=value, more=more, level=not others)
+        act = partial(self._open, title, entries)
+        return _row(title, act, value, *map(minus, words), level=not others)
 
     def _fields(self, subject: Subject, but: Sequence[str] = ()) -> list[Entry]:
         """Return a row for each field that can be typed or chosen."""
         rows = []
         for name, field in subject.plain.items():
             if name not in but:
-                ask, words = partial(self._ask, subject, name), subject.in_words(field)
-                beside, below = (words, "") if len(words) <= MOST else ("", words)
-                rows.append(Entry(_title(name).capitalize(), ask, value=beside, more=below))
+                words, ask = subject.in_words(field), partial(self._ask, subject, name)
+                rows.append(_row(_title(name).capitalize(), ask, words))
         return rows
 
     # -- asking ---------------------------------------------------------------------------------
 
     def _ask(self, subject: Subject, name: str) -> None:
         """Let a person change a field: by a menu of its values, or by typing."""
-        field = subject.plain[name]
+        field, title = subject.plain[name], _title(name)
         value, give = getattr(subject.parts[0], name), partial(subject.set, name)
-        choices = self._choices(field)
-        unit, title = field.metadata.get("unit", ""), _title(name)
+        choices, unit = self._choices(field), field.metadata.get("unit", "")
         exact = isinstance(value, float) and not isinstance(value, Coefficient)
         ask = partial(
-            self._type,
+            self._dialogs.ask,
             f"{title}{f' [{unit}]' if unit else ''} =",
-            field.metadata.get("doc", ""),
-            repr(value) if exact else _in_words(value),
-            lambda typed: give(_typed(field, typed)),
+            Answer("apply", lambda typed: give(_typed(field, typed))),
+            text=repr(value) if exact else _in_words(value),
+            doc=field.metadata.get("doc", ""),
         )
         if isinstance(value, bool):
             give(not value)
@@ -297,13 +275,13 @@ class Properties:
             more = [Entry("another …", ask)] * (name == "color")
             none = AUTOMATIC if _follows(field) else "none"
             named = {none if each is None else _in_words(each): each for each in choices}
-            self._offer(title, named, give, value, more)
+            self._open(title, [*_listed(named, give, value), *more])
         else:
             ask()
 
     def _choices(self, field: Field) -> Sequence[Any]:
         """Return the values that a field may have, if they are few."""
-        robots = self._desk.draft.robots
+        robots = self._desk.draft.base.robots
         chosen = {item.number for item in self._desk.selection if item.kind == "robot"}
         mentions = field.metadata.get("names")
         if mentions == "robot" and schema_of(field).get("type") == "string":
@@ -313,31 +291,10 @@ class Properties:
         words = schema_of(field).get("enum", [*COLORS] * (field.name == "color"))
         return [None, *words] if words and field.default is None else words
 
-    def _type(self, label: str, doc: str, text: str, take: Callable[[str], None]) -> None:
-        """Ask for a value by a field to type in."""
-
-        def answer(typed: str) -> None:
-            take(typed)
-            self._desk.say("")
-
-        field = TextField(text)
-        field.select_all()
-        self._dialogs.ask(label, Answer("apply", answer), field=field, doc=doc)
-
     def _open(self, title: str, entries: Sequence[Entry]) -> None:
+        """Open a menu below the row that was chosen."""
         listed = [Entry(title), *entries]
-        self._menu.open(title, lambda: listed, self._panel.below)
-
-    def _offer(
-        self,
-        title: str,
-        choices: Mapping[str, Any],
-        give: Callable[[Any], object],
-        now: object = None,
-        more: Sequence[Entry] = (),
-    ) -> None:
-        """Open a menu of choices, by their words; now: the present one."""
-        self._open(title, [*_listed(choices, give, now), *more])
+        self._editor.menu.open(title, lambda: listed, self._editor.panel.below)
 
     # -- laws and drives ------------------------------------------------------------------------
 
@@ -346,7 +303,7 @@ class Properties:
         owners = self._members(robots)
         laws: list[Any] = [*members("controllers").values()]
         now = owners.part("controller").kind
-        without = "as the team's law says" if self._document.control is not None else NO_LAW
+        without = "as the team's law says" if self._dialogs.control is not None else NO_LAW
         stop = partial(owners.set, "controller", None)
         return [
             *_listed({law.title: law for law in laws}, partial(self._give_law, robots), now),
@@ -365,9 +322,9 @@ class Properties:
         self._members(robots).change(change)
         needs = " and ".join(sensor.key for sensor in kind.needs)
         if kind is FollowWaypoints and self.idle(self._desk.draft).get(robots[0].number):
-            self._choose("waypoint")
+            self._editor.choose("waypoint")
             self._desk.say("click its waypoints, one after the other")
-        elif kind is FollowRobot and len(self._desk.draft.robots) > len(robots):
+        elif kind is FollowRobot and len(self._desk.draft.base.robots) > len(robots):
             self._ask(self._members(robots).part("controller"), "leader")
         elif needs:
             self._desk.say(f"it goes by its sensor {needs}")
@@ -375,13 +332,20 @@ class Properties:
     def _ask_for_file(self, robots: Subject) -> None:
         def take(typed: str) -> None:
             reference = Reference.read("law", typed)
-            beside = self._document.path or Path("scenario.toml")
+            beside = self._dialogs.path or Path("scenario.toml")
             file = file_beside(Path(reference.file), beside, "a law", [".py"])
             # Each robot gets the law loaded again, so that robots share nothing.
             robots.change(lambda robot: robot.replace(controller=law_in(file, reference.name)))
 
         doc = "a file of Python and a function in it, such as walk.py:walk"
-        self._type("Law =", doc, "", take)
+        self._dialogs.ask("Law =", Answer("apply", take), text="", doc=doc)
+
+
+def _row(title: str, act: Callable[[], object], value: str, *more: str, level: int = 0) -> Entry:
+    """Return a row with its value beside it, or below where both are long; more: words below."""
+    if value and len(title) + len(value) + 3 * level > ROOM:
+        value, more = "", (value, *more)
+    return Entry(title, act, value=value, more=", ".join(more), level=level)
 
 
 def _driven(kind: type[Description], drive: Description) -> Description:
@@ -390,7 +354,9 @@ def _driven(kind: type[Description], drive: Description) -> Description:
     return kind(**{k: v for k, v in given.items() if k in known})
 
 
-def _listed(choices: Mapping[str, Any], give: Callable[[Any], object], now: object) -> list[Entry]:
+def _listed(
+    choices: Mapping[str, Any], give: Callable[[Any], object], now: object = None
+) -> list[Entry]:
     """Return the entries of choices, by their words; now: the present one."""
     return [
         Entry(

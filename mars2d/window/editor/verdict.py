@@ -6,10 +6,9 @@ from collections.abc import Iterator
 from itertools import islice, pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
-import numpy as np
+import shapely
 
 from mars2d.core.errors import Mars2dError
-from mars2d.core.plane import Outline, Point, outside_polygon
 from mars2d.scenario import starts
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor.item import Item
@@ -20,53 +19,41 @@ if TYPE_CHECKING:
 MAX_FAULTS = 50
 """The search stops after this many faults."""
 
-
-class Fault(NamedTuple):
-    """A fault in words, and the items that it concerns."""
-
-    text: str
-    culprits: tuple[Item, ...] = ()
+Fault = tuple[str, tuple[Item, ...]]
+"""A fault in words, and the items that it concerns."""
 
 
 class Verdict(NamedTuple):
-    """The scenario of a draft, None if the draft is not valid; and its faults."""
+    """The scenario of a draft, None if it is not valid; what is wrong, and all items concerned."""
 
     scenario: Scenario | None
-    faults: tuple[Fault, ...] = ()
-
-    @property
-    def text(self) -> str:
-        """The faults in one line, "" if there are none."""
-        if not self.faults:
-            return ""
-        more = len(self.faults) - 1
-        also = f" (and {more} more)" if more else ""
-        return f"{self.faults[0].text}{also}"
-
-    @property
-    def culprits(self) -> frozenset[Item]:
-        """All items that something is wrong with."""
-        return frozenset(item for fault in self.faults for item in fault.culprits)
+    text: str = ""
+    culprits: frozenset[Item] = frozenset()
 
 
 def judge(draft: Draft) -> Verdict:
     """Return the verdict on a draft: the Scenario itself decides whether it is valid."""
-    if not draft.robots:
-        return Verdict(None, (Fault("there is no robot yet: choose Robot (R) and click"),))
+    if not draft.base.robots:
+        return Verdict(None, "there is no robot yet: choose Robot (R) and click")
+    scenario, text = None, ""
     try:
         scenario = draft.scenario()
     except Mars2dError as error:
-        found = tuple(islice(_misplaced(draft), MAX_FAULTS))
-        return Verdict(None, found or (Fault(str(error)),))
-    stray = tuple(_stray(draft))
-    return Verdict(None if stray else scenario, stray)
+        text = str(error)
+    found = _misplaced(draft) if scenario is None else _stray(draft)
+    faults = list(islice(found, MAX_FAULTS))
+    if faults:
+        more = f" (and {len(faults) - 1} more)" if len(faults) > 1 else ""
+        scenario, text = None, f"{faults[0][0]}{more}"
+    return Verdict(scenario, text, frozenset(item for _, items in faults for item in items))
 
 
 def _misplaced(draft: Draft) -> Iterator[Fault]:
     """Find bodies that start where the Scenario does not allow it."""
-    bodies = [Item("robot", i) for i in range(len(draft.robots))]
-    bodies += [Item("prop", i) for i in range(len(draft.props))]
-    obstacles = list(_obstacles(draft))
+    bodies = [item for kind in ("robot", "prop") for item in draft.items() if item.kind == kind]
+    mine = {outline: Item("outline", i) for i, outline in enumerate(draft.listed["outline"])}
+    for i, wall in enumerate(draft.listed["wall"]):
+        mine |= dict.fromkeys(pairwise(wall), Item("wall", i))
     for found in starts.faults(draft.sketch, draft.sketch.bodies):
         item = bodies[found.body]
         name, other = draft.name(item), item
@@ -74,33 +61,21 @@ def _misplaced(draft: Draft) -> Iterator[Fault]:
             other = bodies[found.other]
             text = f"{name} and {draft.name(other)} overlap by {found.depth:.2g} m"
         elif found.kind == "obstacle":
-            other = obstacles[found.other] or item
+            other = mine.get(draft.sketch.obstacles[found.other], item)  # or another add-on's
             what = "an obstacle" if other is item else draft.name(other)
             inside = f"starts inside {what}; if it is a room, draw it as walls"
             text = f"{name} {inside if found.inside else f'starts in contact with {what}'}"
         else:
             where = "outside" if found.kind == "outside" else "in the wall round"
             text = f"{name} starts {where} the workspace"
-        yield Fault(text, (item, other))
-
-
-def _within(point: Point, workspace: Outline) -> bool:
-    x, y = np.array([point]).T
-    return not outside_polygon(x, y, np.array(workspace))[0]
-
-
-def _obstacles(draft: Draft) -> Iterator[Item | None]:
-    """Return the items of the obstacles; None for those that other add-ons make."""
-    mine = {outline: Item("outline", i) for i, outline in enumerate(draft.listed("outline"))}
-    for i, wall in enumerate(draft.listed("wall")):
-        mine |= dict.fromkeys(pairwise(wall), Item("wall", i))
-    for outline in draft.sketch.obstacles:
-        yield mine.get(outline)
+        yield text, (item, other)
 
 
 def _stray(draft: Draft) -> Iterator[Fault]:
     """Find waypoints outside the workspace."""
-    ring = None if draft.base.on_exit == "ignore" else draft.base.workspace
-    for item in draft.items() if ring else ():
-        if item.kind == "waypoint" and not _within(draft.place(item), ring or ()):
-            yield Fault(f"{draft.name(item)} lies outside the workspace", (item,))
+    if draft.base.on_exit == "ignore" or draft.base.workspace is None:
+        return
+    ring = shapely.Polygon(draft.base.workspace)
+    for item in draft.items():
+        if item.kind == "waypoint" and not ring.covers(draft.shape(item)):
+            yield f"{draft.name(item)} lies outside the workspace", (item,)

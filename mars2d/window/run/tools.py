@@ -20,7 +20,6 @@ from mars2d.window.screen.player import Player
 from mars2d.window.widgets.menu import Menu
 from mars2d.window.widgets.notes import Notes
 from mars2d.window.widgets.prompt import Answer, Prompts
-from mars2d.window.widgets.text_field import TextField
 from mars2d.world.operator import forceless
 
 End = Point | int
@@ -149,7 +148,5 @@ class Tools:
                 if self._director.change(lambda world: world.operator.push(body, force, seconds)):
                     self._notes.say(f"a push of {text.strip()}")
 
-            field = TextField(suggested(frame, body), opened_by_key=True)
-            field.select_all()
-            name = frame.scenario.bodies[body].name
-            self.prompts.ask(f"Push {name}", Answer("push", push), field=field, doc=EXPECTED)
+            name, answer = frame.scenario.bodies[body].name, Answer("push", push)
+            self.prompts.ask(f"Push {name}", answer, text=suggested(frame, body), doc=EXPECTED)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from dataclasses import replace
 from math import hypot
 
@@ -20,13 +19,10 @@ class Selection:
         self.body = body
 
 
-def body_at(
-    frame: Frame, point: tuple[float, float], slack: float, but: Collection[int] = ()
-) -> int | None:
+def body_at(frame: Frame, point: tuple[float, float], slack: float) -> int | None:
     """Return the body at a point, or None; robots lie above props.
 
-    Bodies are indices of `Scenario.bodies`. slack: how far beside its edge one is hit, metres. but:
-    bodies that are looked through.
+    Bodies are indices of `Scenario.bodies`. slack: how far beside its edge one is hit, metres.
     """
     poses = frame.all_poses
     n = frame.pose.shape[1]
@@ -35,7 +31,7 @@ def body_at(
         x, y, theta = poses[:, i].tolist()
         center, radius = frame.scenario.bodies[i].shape.bound
         far = hypot(x - point[0], y - point[1]) > hypot(*center) + radius + slack
-        if far or i in but:
+        if far:
             continue
         c, s = np.cos(theta), np.sin(theta)
         dx, dy = point[0] - x, point[1] - y

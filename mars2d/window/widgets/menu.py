@@ -188,7 +188,7 @@ class Menu:
         elif name in ("home", "end"):
             self._chosen = -1 if name == "home" else len(entries)
             self._move(1 if name == "home" else -1)
-        elif name in ("return", "enter", *(() if self._stays else ("space",))):
+        elif name in ("return", "enter", *(() if self._stays or self._typed else ("space",))):
             self._choose(entries[self._chosen])
         elif name == "escape" and self._docked:
             self.focused = False

@@ -64,12 +64,24 @@ class Prompts:
         self,
         label: str,
         *answers: Answer,
-        field: TextField | None = None,
+        text: str | None = None,
         doc: str = "",
         escape: str = "cancel",
     ) -> None:
+<<<<<<< HEAD
         """Open a prompt, of which Enter gives the first answer; escape: what Esc does, in words."""
         self._show(Prompt(label, [*answers, Answer(escape, key="Esc")], field, doc))
+=======
+        """Open a prompt, of which Enter gives the first answer.
+
+        text: stands in a field to type in, selected; None for no field. escape: what Esc does, in
+        words.
+        """
+        field = None if text is None else TextField(text, opened_by_key=True)
+        if field is not None:
+            field.select_all()
+        self._show(Prompt(label, field, doc), [*answers, Answer(escape, key="Esc")])
+>>>>>>> editor
 
     def _show(self, prompt: Prompt) -> None:
         self.prompt = prompt
@@ -89,6 +101,7 @@ class Prompts:
         )
         return [Entry(prompt.label, field=prompt.field), *told, *ways]
 
+<<<<<<< HEAD
     def _answer(self, prompt: Prompt, answer: Answer) -> None:
         self.prompt = None
         try:
@@ -96,3 +109,15 @@ class Prompts:
         except Mars2dError as error:
             prompt.fault = str(error), prompt.text
             self._show(prompt)
+=======
+        def entries() -> list[Entry]:
+            words, tone = prompt.error or prompt.doc, "warning" if prompt.error else "note"
+            told = [Entry(words, tone=tone)] if words else []
+            ways = [
+                Entry(each.words, partial(answer, each), each.key, value="Enter" * (not each.key))
+                for each in answers
+            ]
+            return [Entry(prompt.label, field=prompt.field), *told, *ways]
+
+        self._menu.open("prompt", entries, (0, 0), asks=True)
+>>>>>>> editor
