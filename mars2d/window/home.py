@@ -17,7 +17,7 @@ from mars2d.window.screen.memory import Memory
 from mars2d.window.screen.rest import Rest
 from mars2d.window.widgets.actions import action_of
 from mars2d.window.widgets.buttons import Buttons
-from mars2d.window.widgets.cards import Card, Page, Shelf
+from mars2d.window.widgets.cards import NOTCH, Card, Page, Shelf
 from mars2d.window.widgets.help import Help
 from mars2d.window.widgets.notes import Notes
 from mars2d.window.widgets.text_field import TextField
@@ -180,7 +180,6 @@ class Home:
 
     def handle(self, event: pygame.Event) -> None:
         """Handle an event."""
-        ui = self.painter.ui
         if event.type == pygame.QUIT:
             self._leave()
         elif self._buttons.handle(event):
@@ -193,7 +192,7 @@ class Home:
             action = action_of(event, HOME)
             self._actions.get("" if action is None else action.name, lambda: None)()
         elif event.type == pygame.MOUSEWHEEL:
-            self.page.scroll(-event.y, ui)
+            self.page.turn(-event.y * NOTCH)
         elif event.type == pygame.MOUSEMOTION:
             card = self.page.at(event.pos)
             self.page.chosen = self.page.chosen if card is None else card

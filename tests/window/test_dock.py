@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from functools import partial
-
 import pygame
 
 from mars2d import Robot, Scenario, World
-from mars2d.output.raster.layout import Layout, fitted
+from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
 from mars2d.window.panels.lesson import Lesson
 from mars2d.window.screen.viewpoint import Viewpoint
-from mars2d.window.widgets.dock import Dock, Panel
+from mars2d.window.widgets.dock import Dock
+from mars2d.window.widgets.panel import Panel
 from tests.cases import each_case
 from tests.window.written import Written, painter
 
@@ -55,9 +54,7 @@ class Seen:
         self.draw(spot)
 
     def draw(self, spot=None):
-        *_, low, high = self.frame.scenario.bounds
-        fit = partial(fitted, self.frame.scenario.bounds, self.layout.size)
-        room = self.dock.arrange(self.layout, self.frame, fit, high - low)
+        room = self.dock.arrange(self.layout, self.frame, self.frame.scenario.bounds)
         self.view.arrange(self.layout, self.frame.scenario, room)
         self.dock.draw(self.surface, self.frame, spot)
         xmin, xmax, ymin, ymax = self.frame.scenario.bounds
@@ -145,6 +142,23 @@ def test_a_panel_of_what_is_selected_leaves_the_arena_where_it_is_until_it_is_fi
     assert not seen.draw().dock.plates["inspector"].colliderect(seen.arena)
 
 
+def test_panels_stay_where_they_stand_when_one_has_more_to_say_and_move_for_another():
+    panels = [Plain(f"panel{k}", least=50.0, wanted=60.0) for k in range(3)]
+    for panel in panels[:2]:
+        panel.wanted = True
+    seen = Seen(panels, (1152, 648), WIDE)
+    corners = [plate.topleft for plate in seen.dock.plates.values()]
+    assert len(corners) == 2
+    arena, strip = seen.arena, min(top for _, top in corners)
+    panels[0].size = 50.0, 900.0
+    assert seen.draw().arena == arena
+    assert [plate.topleft for plate in seen.dock.plates.values()] == corners
+    panels[2].wanted = True
+    seen.draw()
+    assert len(seen.dock.plates) == 3
+    assert min(plate.top for plate in seen.dock.plates.values()) < strip, "there is more room"
+
+
 def test_a_panel_is_closed_by_its_button_and_opened_by_name():
     panels = some(2)
     seen = Seen(panels)
@@ -199,6 +213,6 @@ def test_what_scrolls_is_wrapped_beside_its_bar(tmp_path):
     lesson, surface = Lesson(pen, tmp_path / "long.py"), Written((300, 120))
     for width in range(270, 300):
         lesson.draw(surface, pygame.Rect(0, 0, width, 120), frame_of(SQUARE))
-        assert lesson.cut
+        assert lesson.scroll.cut
     assert surface.texts
     assert not [text for text in surface.texts if "…" in text]

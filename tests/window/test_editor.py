@@ -418,7 +418,7 @@ def test_leaving_a_paused_run_asks_what_to_do_with_the_changes(open_editor):
     hands.until(lambda s: s["robots"][0][0] == 2)
     hands.press("Escape", "Escape")
     hands.until(lambda s: s["prompt"] == "Use what was drawn?")
-    hands.press("BackSpace")
+    hands.press("Down", "Down", "Return")
     assert hands.until(lambda s: s.get("left"))["when"] is None
 
 

@@ -40,6 +40,7 @@ from mars2d.window.panels.readout import (
     dynamics_of,
     force_of,
     inbox,
+    kind_of,
     state_of,
 )
 from mars2d.window.panels.sensorplot import rows_of
@@ -109,6 +110,8 @@ def words(frame, body):
 
 def test_a_robots_numbers_are_those_of_its_drive(world):
     frame = world.frame
+    kinds = ["unicycle", "differential", "holonomic", "car", "box"]
+    assert [kind_of(frame, body) for body in range(5)] == kinds
     red, blue, green, car = (words(frame, body) for body in range(4))
     x, y, _ = frame.pose[:, 0]
     assert red["pose"][:2] == [f"x {x:.2f} m", f"y {y:.2f} m".replace("-", "\N{MINUS SIGN}")]

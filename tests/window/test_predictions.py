@@ -71,7 +71,7 @@ def test_a_prediction_is_not_yet_then_ok_so_far_then_ok(tmp_path):
     desk = Desk(tmp_path, WAY)
     desk.run(6)
     assert desk.look()
-    assert {"way", "1.000", "0.250", "0.01", "m", "not yet"} <= set(desk.says)
+    assert {"way", "1.000", "0.250", "0.01 m", "not yet"} <= set(desk.says)
     assert "0 of 1 prediction ok at 0.5 s" in desk.says
     desk.finish()
     assert desk.look()

@@ -39,13 +39,14 @@ def test_panels_are_scrolled_by_keys(open_window, tmp_path):
     window = open_window(0, experiment=str(path))
     window.press("F4")
     lesson = window.shown.dock.lesson
+    window.shown.dock.scopes.switch("x", (0,))
     window.settle()
-    assert lesson.cut
+    assert lesson.scroll.cut
     window.press("shift+Next", "shift+Next")
-    assert lesson.scroll > 100
+    assert lesson.scroll.at > 100
     window.press("shift+Prior", "shift+Prior", "shift+Prior")
     assert window.settle()["row"] == 0, "without Shift they are steps"
-    assert lesson.scroll == 0
+    assert lesson.scroll.at == 0
 
 
 def test_with_a_slider_in_the_hand_the_help_opens_and_escape_closes_it(open_window, pushing):

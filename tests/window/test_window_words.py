@@ -1,7 +1,5 @@
 """The words of a window: the keys that serve now, what is said of a change, none over another."""
 
-from functools import partial
-
 import pygame
 import pytest
 
@@ -11,7 +9,7 @@ from mars2d.scenario.experiment import open_experiment
 from mars2d.window.run.window import Window
 from mars2d.world.timeline import Timeline
 from tests.cases import each_case
-from tests.window.written import Pens, Written
+from tests.window.written import Pens, Written, pixels
 from tests.worlds import ahead
 
 SMALL, LARGE = (922, 691), (1280, 720)
@@ -173,14 +171,19 @@ def test_where_there_is_no_room_beside_it_legends_lie_where_no_body_is(plates, t
     assert not any(plate.collidepoint(middle) for plate in plates for middle in bodies)
 
 
-def test_panels_that_stood_beside_the_arena_stay_there_when_one_of_them_has_more_to_say(display):
-    window = Window(Timeline(open_experiment("tug_of_war")))
-    plot, everybody = window.dock.scopes.switch, range(5)
-    for opens in (
-        partial(window.dock.open, ["lesson"]), window.dock.impact.open,
-        partial(plot, "speed", (*everybody,)), partial(plot, "x", (*everybody,)),
-        partial(do, window, "select"),
-    ):  # fmt: skip
-        opens()
-        words(window, (1152, 648))
-        assert window.viewpoint.seen.collidelist([*window.dock.plates.values()]) == -1
+@each_case("size, text", [((640, 400), 1.0), ((800, 600), 1.7), (LARGE, 2.2)])
+def test_notes_lie_beside_panels_in_small_windows_too(window, size, text):
+    window.looks.text = text
+    window.dock.open(["parameters"])
+    window.notes.clear()
+    pictures = []
+    for note in ("", "the film can't be written, since there is no space left"):
+        if note:
+            window.notes.say(note, "error")
+        for _ in range(2):
+            window.draw(surface := pygame.Surface(size, 0, 32))
+        pictures.append(pixels(surface))
+    (plate,) = window.dock.plates.values()
+    changed = (pictures[0] != pictures[1]).any(axis=2)
+    assert changed.any()
+    assert not changed[plate.top : plate.bottom, plate.left : plate.right].any()

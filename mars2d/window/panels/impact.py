@@ -8,13 +8,10 @@ from mars2d.output.raster.painter import Painter
 from mars2d.record.contact import met
 from mars2d.record.frame import Frame
 from mars2d.record.impacts import card
-from mars2d.window.panels.readout import MINUS
-from mars2d.window.panels.rows import Row, RowsPanel
 from mars2d.window.screen.player import Player
-from mars2d.window.widgets.words import Word
+from mars2d.window.widgets.panel import LINE, Panel
+from mars2d.window.widgets.rows import Row, Word, height_of, minus
 
-LINE, SIZE = 18.0, 12.5
-"""The heights of a line and of its letters, points."""
 ENDS = (0.5, 0.71, 1.0)
 """Where the numbers of a, of b and of both end, in parts of the width."""
 SILENT = "No touch began in this control step. N: on to the next contact, Shift N: back."
@@ -22,7 +19,7 @@ SILENT = "No touch began in this control step. N: on to the next contact, Shift 
 Table = list[tuple[str, str, str, str]]
 
 
-class Impact(RowsPanel):
+class Impact(Panel):
     """Shows velocities, energies and momenta before and after each touch of a control step.
 
     It opens with the keys that go from contact to contact.
@@ -40,16 +37,20 @@ class Impact(RowsPanel):
         """Return the lines of all cards, or that there is none."""
         lines = [line for table in self._cards(frame) for line in table]
         if not lines:
-            return [*self.wrapped(LINE, Word(SILENT, self.painter.theme.muted, SIZE), width)]
+            return [*self.wrapped(Word(SILENT, self.painter.theme.muted), width)]
         return [self._line(*line) for line in lines]
+
+    def heights(self, frame: Frame, width: float) -> tuple[float, float]:
+        """Return the least and the wanted height; without a card it needs little."""
+        wanted = height_of(self.rows(frame, width))
+        return min(self.least, wanted), wanted
 
     def _line(self, label: str, *numbers: str) -> Row:
         """Return a line of a card; that without a label has the names."""
         theme = self.painter.theme
         ink = theme.text if label else theme.ink
-        words = (Word(each.replace("-", MINUS), ink, SIZE, not label) for each in numbers)
-        ends = [(end, [word]) for end, word in zip(ENDS, words, strict=True)]
-        return self.line(LINE, [Word(label, theme.muted, SIZE)], ends=ends)
+        words = [Word(minus(each), ink, bold=not label) for each in numbers]
+        return self.table(words, ENDS, [Word(label, theme.muted)])
 
     def _cards(self, frame: Frame) -> list[Table]:
         """Return the tables of the touches that began in the control step before a frame."""

@@ -8,14 +8,11 @@ from pathlib import Path
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
 from mars2d.scenario.lesson import lesson_of
-from mars2d.window.panels.rows import Row, RowsPanel
-from mars2d.window.widgets.words import Word
-
-LINE, SIZE = 18.0, 13.0
-"""The heights of a line and of its letters, points."""
+from mars2d.window.widgets.panel import Panel
+from mars2d.window.widgets.rows import Row, Word
 
 
-class Lesson(RowsPanel):
+class Lesson(Panel):
     """Shows the docstring of an experiment's file, part by part.
 
     parts: their headings, "" for the first one, and their texts.
@@ -27,16 +24,13 @@ class Lesson(RowsPanel):
         """Read a file; one without a docstring of several parts has no lesson."""
         super().__init__(painter)
         self.parts = lesson_of(path)
-
-    @property
-    def offered(self) -> bool:
-        """Whether there is a lesson."""
-        return len(self.parts) > 1
+        if len(self.parts) < 2:
+            self.lacks = "this file has no lesson: a docstring with Question: and the like"
 
     def rows(self, frame: Frame, width: float) -> Sequence[Row]:  # noqa: ARG002
         """Return the lines, each part under its heading."""
         theme, found = self.painter.theme, list[Row]()
         for heading, text in self.parts:
-            found += self.wrapped(LINE, Word(heading, theme.ink, SIZE, bold=True), width)
-            found += self.wrapped(LINE, Word(text, theme.text, SIZE), width)
+            found += self.wrapped(Word(heading, theme.ink, bold=True), width)
+            found += self.wrapped(Word(text, theme.text), width)
         return found

@@ -15,22 +15,16 @@ from mars2d.window.panels.lesson import Lesson
 from mars2d.window.panels.parameter_panel import ParameterPanel, Set
 from mars2d.window.panels.predictions import Predictions
 from mars2d.window.panels.printed import Printed
-from mars2d.window.panels.rows import RowsPanel
 from mars2d.window.panels.scopes import Scopes
 from mars2d.window.screen.picking import Selection
 from mars2d.window.screen.player import Player
 from mars2d.window.screen.saving import Saver
-from mars2d.window.screen.source import RECORDING
-from mars2d.window.widgets.dock import Dock, Panel
+from mars2d.window.widgets.dock import Dock
 from mars2d.window.widgets.notes import Notes
 from mars2d.world.timeline import Timeline
 
-LACKS = {
-    "predictions": "this file has no checks, which compare a run with theory",
-    "lesson": "this file has no lesson: a docstring with Question: and the like",
-    "parameters": RECORDING,
-}
-"""What is said where a panel has nothing to show."""
+OPENED = ("predictions", "lesson", "parameters", "printed")
+"""The panels that have a command of their own."""
 
 
 class Panels(Dock):
@@ -66,7 +60,7 @@ class Panels(Dock):
         )  # fmt: skip
         self._notes = notes
         self.actions: dict[str, Callable[[], None]] = {
-            **{name: partial(self._open_or_not, name) for name in (*LACKS, "printed")},
+            **{name: partial(self._open_or_not, name) for name in OPENED},
             "figure": lambda: scopes.save_figure(player.frame, saver),
             "less_time": lambda: scopes.zoom(1),
             "more_time": lambda: scopes.zoom(-1),
@@ -78,11 +72,7 @@ class Panels(Dock):
     @property
     def lacking(self) -> list[str]:
         """The names of panels with nothing to show."""
-        return [panel.name for panel in self.panels if not panel.offered]
-
-    def named(self, name: str) -> Panel:
-        """Return the panel of a name."""
-        return next(panel for panel in self.panels if panel.name == name)
+        return [panel.name for panel in self.panels if panel.lacks]
 
     def is_on(self, name: str) -> bool:
         """Return whether there is an open panel of this name."""
@@ -90,8 +80,9 @@ class Panels(Dock):
 
     def _open_or_not(self, name: str) -> None:
         """Show a panel, or no longer; or say what it lacks."""
-        if name in self.lacking:
-            self._notes.say(LACKS[name], "warning")
+        lacks = self.named(name).lacks
+        if lacks:
+            self._notes.say(lacks, "warning")
         else:
             self.switch(name)
 
@@ -105,5 +96,5 @@ class Panels(Dock):
         """Scroll the panels that have more rows, as the wheel over them does."""
         turned = pygame.Event(pygame.MOUSEWHEEL, x=0, y=3 * notches)
         for panel in self.panels:
-            if isinstance(panel, RowsPanel) and panel.is_open and panel.cut:
+            if panel.is_open and panel.scroll.cut:
                 panel.handle(turned)

@@ -16,13 +16,14 @@ from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.parameters import PREFIX, Parameter
-from mars2d.window.panels.rows import Row, RowsPanel
 from mars2d.window.screen.picking import Selection
 from mars2d.window.screen.player import Player
+from mars2d.window.screen.source import RECORDING
 from mars2d.window.widgets.buttons import draw_icon
+from mars2d.window.widgets.panel import LINE, Panel
+from mars2d.window.widgets.rows import Row, Word, write_line
 from mars2d.window.widgets.slider import Slider
 from mars2d.window.widgets.text_field import TextField
-from mars2d.window.widgets.words import Word, write_line
 from mars2d.world.timeline import Timeline
 
 Pixel = tuple[int, int]
@@ -40,9 +41,8 @@ NAME, PAD = 20.0, 6.0
 """The height of a row's name, above its slider, and the gap beside both, points."""
 RESET = 18.0
 """The side of the button at the end of a row that puts it back, points."""
-WORDS, LINES, MAX_LINES = 17.0, 2, 4
-"""The height of a line of the panel's message, points; how many have room, and how many there are
-at most."""
+LINES, MAX_LINES = 2, 4
+"""How many lines of the panel's message have room, and how many there are at most."""
 LEAST_ROWS = 3
 """The rows that are seen at least."""
 EVERY = 0.1
@@ -55,7 +55,7 @@ MAX_TYPED, TYPED_WIDTH = 12, 104.0
 """The longest number that can be typed, and the width of its field, points."""
 
 
-class ParameterPanel(RowsPanel):
+class ParameterPanel(Panel):
     """Shows the parameters of an experiment, and of the body that is selected, as sliders.
 
     A slider is dragged, or moved by arrow keys once it was clicked; a number that is typed then is
@@ -65,7 +65,7 @@ class ParameterPanel(RowsPanel):
     """
 
     name, title = "parameters", "Parameters"
-    least = LEAST_ROWS * ROW + HEADING + LINES * WORDS + 4
+    least = LEAST_ROWS * ROW + HEADING + LINES * LINE + 4
 
     def __init__(
         self,
@@ -79,11 +79,11 @@ class ParameterPanel(RowsPanel):
         super().__init__(painter)
         self._player, self._selection = player, selection
         self._set_to, self._clock = set_to, clock
-        self._known: tuple[Experiment | None, int | None] | None = None
+        self.lacks = "" if isinstance(player.source, Timeline) else RECORDING
+        self._known: tuple[Experiment | None, int | None] = None, None
         self._lines: list[Line] = []
         self._sliders: dict[str, Slider] = {}
-        self.places: dict[str, pygame.Rect] = {}  # of rows, by the names of parameters
-        self.resets: dict[str, pygame.Rect] = {}
+        self.resets: dict[str, pygame.Rect] = {}  # buttons, by the names of parameters
         self.focus: str | None = None  # the parameter that keys go to
         self.typed = TextField(accepts=TYPED, most=MAX_TYPED)  # a number
         self.said: tuple[str, Say] = "", "info"
@@ -91,11 +91,6 @@ class ParameterPanel(RowsPanel):
         self._value = 0.0  # of what is held
         self._anew = ""  # why it needs a new start
         self._next = 0.0  # when it may be set
-
-    @property
-    def offered(self) -> bool:
-        """Whether the run can be changed."""
-        return isinstance(self._player.source, Timeline)
 
     # -- what there is ------------------------------------------------------------------------
 
@@ -107,21 +102,27 @@ class ParameterPanel(RowsPanel):
         """Return the lines; the parameters are read again where something was set or selected."""
         source, body = self._player.source, self._selection.body
         experiment = source.experiment if isinstance(source, Timeline) else None
-        if experiment is not None and body is not None:
-            body = body if body < len(experiment.scenario.bodies) else None
-        if self._known is None or self._known[0] is not experiment or self._known[1] != body:
-            selected = body is not None and (self._known is None or self._known[1] != body)
-            self._known = experiment, body
-            try:
-                self._lines = [] if experiment is None else list(_lines(experiment, body))
-            except InputError as error:  # of a Range of a law
-                self._lines, self.said = [("No parameters", None)], (str(error), "error")
-            if selected and self._lines:  # let its sliders be seen
-                heading = max(k for k, (_, each) in enumerate(self._lines) if each is None)
-                self.scroll = _top(self._lines[:heading])
-            if self.focus not in {each.name for _, each in self._lines if each is not None}:
-                self.leave()
+        (before, last), self._known = self._known, (experiment, body)
+        if experiment is None or (experiment is before and body == last):
+            return self._lines
+        try:
+            self._lines = list(_lines(experiment, body))
+        except InputError as error:  # of a Range of a law
+            self._lines, self.said = [("No parameters", None)], (str(error), "error")
+        if body is not None and body != last:  # let its sliders be seen
+            self.scroll.at = self._top(self._last_heading)
+        if self.focus not in {each.name for _, each in self._lines if each is not None}:
+            self.leave()
         return self._lines
+
+    @property
+    def _last_heading(self) -> int:
+        return max(k for k, (_, each) in enumerate(self._lines) if each is None)
+
+    def _top(self, line: int) -> float:
+        """Return the height above a line, pixels."""
+        above = (HEADING if each is None else ROW for _, each in self._lines[:line])
+        return self.painter.ui * sum(above)
 
     # -- drawing ------------------------------------------------------------------------------
 
@@ -129,23 +130,23 @@ class ParameterPanel(RowsPanel):
         """Return the headings, and a row for each parameter."""
         color = self.painter.theme.muted
         return [
-            self.line(HEADING, [Word(text, color, bold=True)])
+            self.line([Word(text, color, bold=True)], high=HEADING)
             if parameter is None
-            else Row(ROW, partial(self._draw_row, text, parameter))
+            else Row(ROW, partial(self._draw_row, text, parameter), parameter.name)
             for text, parameter in self._look()
         ]
 
     def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:
-        """Draw the rows, and note where they are."""
-        self.places, self.resets = {}, {}
+        """Draw the rows, and note where their buttons are."""
+        self.resets = {}
         super().draw(surface, rect, frame)
 
     def foot(self, width: float) -> Sequence[Row]:
         """Return the effect of the last setting, or else words about the slider with the focus."""
         text, kind = self._words()
         color = self.painter.theme.error.ink if kind == "error" else self.painter.theme.muted
-        lines = [*self.wrapped(WORDS, Word(text, color), width, MAX_LINES)]
-        return [self.line(4), *lines, *[self.line(WORDS)] * (LINES - len(lines))]
+        lines = [*self.wrapped(Word(text, color), width, MAX_LINES)]
+        return [self.gap(4), *lines, *[self.gap(LINE)] * (LINES - len(lines))]
 
     def _draw_row(
         self, text: str, parameter: Parameter, surface: pygame.Surface, place: pygame.Rect
@@ -153,13 +154,11 @@ class ParameterPanel(RowsPanel):
         """Draw a name, its value, the button that puts it back, and below them the slider."""
         ui, theme, pad = self.painter.ui, self.painter.theme, round(PAD * self.painter.ui)
         name, held = parameter.name, parameter.name == self._held
-        self.places[name] = place.clip(surface.get_clip())
         if name == self.focus:
             self.painter.panel(surface, place, theme.key, 5 * ui, theme.selected)
         value = self._value if held else parameter.value
         above = pygame.Rect(place.left + pad, place.top, place.width - 2 * pad, round(NAME * ui))
         line = pygame.Rect(above.bottomleft, (above.width, place.bottom - above.bottom))
-        line = line.inflate(-round(12 * ui), -round(4 * ui))
         if value != parameter.default and not held:
             reset = pygame.Rect(0, 0, round(RESET * ui), round(RESET * ui))
             reset.midright = above.right + pad // 2, above.centery
@@ -167,8 +166,7 @@ class ParameterPanel(RowsPanel):
             self.resets[name] = reset
             above.width = reset.left - pad // 2 - above.left
         number = Word(_number(parameter, value), theme.ink, SIZE, bold=value != parameter.default)
-        unit = [Word(parameter.unit, theme.muted, 0.9 * SIZE)] if parameter.unit else []
-        words = [number, *unit]
+        words = [number, *[Word(parameter.unit, theme.muted, 0.9 * SIZE)] * bool(parameter.unit)]
         if name == self.focus and self.typed.text:
             box = pygame.Rect(0, 0, round(TYPED_WIDTH * ui), round((NAME - 3) * ui))
             box.midright, words = above.midright, []
@@ -177,6 +175,7 @@ class ParameterPanel(RowsPanel):
             above.width = box.left - 2 * pad - above.left
         write_line(surface, above, self.painter, [Word(text, theme.text, SIZE)], words)
         slider = self._sliders[name] = Slider(parameter.low, parameter.high)
+        line = line.inflate(-round(12 * ui), -round(4 * ui))
         slider.draw_value(surface, line, self.painter, value, parameter.default, held=held)
 
     def _words(self) -> tuple[str, Say]:
@@ -200,10 +199,15 @@ class ParameterPanel(RowsPanel):
         super().handle(event)
         if event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
             return self._press(event.pos)
-        if event.type == pygame.MOUSEMOTION and self._held is not None:
-            self._drag(event.pos[0])
-        elif event.type == pygame.MOUSEBUTTONUP and self._held is not None:
-            self._drop()
+        held = self.parameters().get(self._held or "")
+        if held is None:  # or the file was saved, and has it no more
+            self._held = None
+        elif event.type == pygame.MOUSEMOTION:
+            self._drag(held, event.pos[0])
+        elif event.type == pygame.MOUSEBUTTONUP:
+            self._held = None
+            if held.value != self._value or self._anew:
+                self._set(held.name, self._value)
         return False
 
     def _press(self, pixel: Pixel) -> bool:
@@ -213,41 +217,25 @@ class ParameterPanel(RowsPanel):
         self.focus, self.said = name, ("", "info")
         if name is None:
             return False
+        parameter = self.parameters()[name]
         if name in self.resets and self.resets[name].collidepoint(pixel):
-            self._set(name, self.parameters()[name].default)
+            self._set(name, parameter.default)
         elif self._sliders[name].hit(pixel):
             self._held, self._anew, self._next = name, "", self._clock()
-            self._drag(pixel[0])
+            self._drag(parameter, pixel[0])
         return self._held is not None
 
-    def _drag(self, x: float) -> None:
+    def _drag(self, parameter: Parameter, x: float) -> None:
         """Move the handle that is held to a pixel from the left."""
-        assert self._held is not None
-        parameter = self.parameters().get(self._held)
-        if parameter is None:  # the file was saved, and has it no more
-            self._held = None
-        else:
-            self._value = parameter.nearest(self._sliders[self._held].value_at(x))
+        self._value = parameter.nearest(self._sliders[parameter.name].value_at(x))
 
     def tick(self) -> None:
         """While time passes, set the dragged value as often as that is quick; call it often."""
-        start = self._clock()
-        if self._waits() and not self._anew and self._player.playing and start >= self._next:
-            self._set(self._held or "", self._value, restart=False)
-            taken = self._clock() - start
-            self._next = start + max(EVERY, taken / SHARE)
-
-    def _drop(self) -> None:
-        """Let go of the handle, and set its value."""
-        waits, name = self._waits(), self._held
-        self._held = None
-        if name is not None and (waits or self._anew):
-            self._set(name, self._value)
-
-    def _waits(self) -> bool:
-        """Return whether something is held that has another value yet."""
-        held = self.parameters().get(self._held or "")
-        return held is not None and held.value != self._value
+        held, start = self.parameters().get(self._held or ""), self._clock()
+        waits = held is not None and held.value != self._value and not self._anew
+        if held is not None and waits and self._player.playing and start >= self._next:
+            self._set(held.name, self._value, restart=False)
+            self._next = start + max(EVERY, (self._clock() - start) / SHARE)
 
     def _set(self, name: str, value: float, *, restart: bool = True) -> None:
         """Set a parameter, and report the effect."""
@@ -286,7 +274,9 @@ class ParameterPanel(RowsPanel):
             step = parameter.step * (1 if name == "right" else -1)
             self._set(parameter.name, parameter.nearest(parameter.value + step))
         elif name in ("up", "down"):
-            self._focus_next(parameter.name, 1 if name == "down" else -1)
+            names = [*self.parameters()]
+            number = names.index(parameter.name) + (1 if name == "down" else -1)
+            self.focus_on(names[number % len(names)])
         elif name in ("return", "enter") and self.typed.text:
             self._take(parameter)
         elif name == "escape" and self.typed.text:
@@ -297,22 +287,16 @@ class ParameterPanel(RowsPanel):
             return False
         return True
 
-    def _focus_next(self, name: str, way: int) -> None:
-        """Let the next slider, or the one before, have the focus."""
-        names = [*self.parameters()]
-        self.focus_on(names[(names.index(name) + way) % len(names)])
-
     def focus_on(self, name: str | None) -> None:
         """Let a slider have the focus, and be seen; None: the first, of what is selected."""
         self.leave()
         names = ["" if each is None else each.name for _, each in self._look()]
-        if name is None:
-            last = max((k for k, found in enumerate(names) if not found), default=0)
-            name = next((found for found in (*names[last:], *names) if found), None)
+        if name is None and any(names):
+            name = next(filter(None, [*names[self._last_heading :], *names]))
         self.focus, self.said = name, ("", "info")
         if name in names:
-            top = _top(self._lines[: names.index(name)])
-            self.scroll = min(max(self.scroll, top + ROW - self.room), top)
+            top = self._top(names.index(name))
+            self.scroll.bring(top, top + ROW * self.painter.ui)
 
     def _take(self, parameter: Parameter) -> None:
         """Set the number that was typed."""
@@ -341,15 +325,10 @@ def _lines(experiment: Experiment, body: int | None) -> Iterator[Line]:
         yield parameter.name.rpartition(".")[2], parameter
     if not found:
         yield "No parameters in this file", None
-    if body is not None:
+    if body is not None and body < len(experiment.scenario.bodies):
         yield str(experiment.scenario.bodies[body].name), None
         for parameter in experiment.parameters(body):
             yield parameter.name.rpartition(".")[2].replace("_", " "), parameter
-
-
-def _top(lines: Sequence[Line]) -> float:
-    """Return the height of lines, points."""
-    return sum(HEADING if parameter is None else ROW for _, parameter in lines)
 
 
 def _number(parameter: Parameter, value: float) -> str:

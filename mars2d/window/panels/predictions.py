@@ -11,9 +11,9 @@ from mars2d.core.errors import LawError
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.theme import Theme
 from mars2d.record.frame import Frame
-from mars2d.scenario.prediction import SIGNS, Prediction, cells, number, summary
-from mars2d.window.panels.rows import DOT, Row, RowsPanel
-from mars2d.window.widgets.words import Word
+from mars2d.scenario.prediction import Prediction, cells, summary
+from mars2d.window.widgets.panel import DOT, Panel
+from mars2d.window.widgets.rows import Row, Word
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
 
@@ -24,10 +24,8 @@ SHARE = 0.04
 
 TITLES, ENDS = ("predicted", "measured", "tolerance"), (0.28, 0.58, 1.0)
 """The columns, and where they end, in parts of the width."""
-NAME, LINE, GAP = 18.0, 17.0, 6.0
-"""The heights of a name, of a line of words and of the gap below, points."""
-NUMBER = 13.0
-"""The height of numbers, points."""
+GAP = 6.0
+"""The height of the gap below a prediction, points."""
 MAX_WORDS = 6
 """The most lines of words about values that could not be read."""
 
@@ -44,7 +42,7 @@ class Reading(NamedTuple):
     error: LawError | None
 
 
-class Predictions(RowsPanel):
+class Predictions(Panel):
     """Shows predictions as a table: predicted, measured, tolerance, and whether they agree.
 
     `checks` is written for a run that has ended. While one goes on, it is asked a few times a
@@ -68,9 +66,10 @@ class Predictions(RowsPanel):
         self._next = -math.inf
 
     @property
-    def offered(self) -> bool:
-        """Whether the experiment has checks."""
-        return self._timeline is not None and self._timeline.experiment.source.checks is not None
+    def lacks(self) -> str:  # type: ignore[override]
+        """Why there is nothing to show: without checks, which may come when the file is saved."""
+        checks = self._timeline is not None and self._timeline.experiment.source.checks is not None
+        return "" if checks else "this file has no checks, which compare a run with theory"
 
     def look(self, *, playing: bool) -> bool:
         """Read the run again if it has gone on; return whether there is something new to see."""
@@ -94,15 +93,10 @@ class Predictions(RowsPanel):
     def rows(self, frame: Frame, width: float) -> Sequence[Row]:  # noqa: ARG002
         """Return the titles of the columns, and two rows for each prediction, or why none."""
         found, muted = self.reading.predictions, self.painter.theme.muted
-        titles = [
-            (end, [Word(title, muted, 11.5)]) for title, end in zip(TITLES, ENDS, strict=True)
-        ]
-        each = [row for prediction in found for row in self._rows_of(prediction, width)]
-        return [self.line(LINE, ends=titles), *each] if found else self._said(width)
-
-    def heights(self, frame: Frame, width: float) -> tuple[float, float]:
-        """Return the least and the wanted height; nothing measured yet makes neither lower."""
-        return self.least, max(self.least, super().heights(frame, width)[1])
+        if not found:
+            return self._said(width)
+        titles = self.table([Word(each, muted) for each in TITLES], ENDS)
+        return [titles, *(row for each in found for row in self._rows_of(each))]
 
     def foot(self, width: float) -> Sequence[Row]:
         """Return lines about the run, and about values that could not be read."""
@@ -112,38 +106,24 @@ class Predictions(RowsPanel):
         theme, reading = self.painter.theme, self.reading
         failed = reading.error is not None and reading.finished
         color = theme.error.ink if failed else theme.muted
-        return [*self.wrapped(LINE, Word(self._words(), color, 12), width, MAX_WORDS)]
+        return [*self.wrapped(Word(self._words(), color), width, MAX_WORDS)]
 
-    def _rows_of(self, p: Prediction, width: float) -> list[Row]:
+    def _rows_of(self, p: Prediction) -> list[Row]:
         """Return a prediction: its name and how it stands, and below that its numbers."""
         theme = self.painter.theme
         said, color = self._verdict(p, theme)
-        name = [Word(DOT, color, 12), Word(p.name, theme.ink, 13)]
-        head = self.line(NAME, name, [Word(said, color, 12, bold=True)])
+        name = [Word(DOT, color), Word(p.name, theme.ink)]
+        head = self.line(name, [Word(said, color, bold=True)])
         if p.reason:
-            return [head, self.line(LINE, [Word(p.reason, theme.muted, 12)]), self.line(GAP)]
-        room = (ENDS[0] * width - 4) * self.painter.ui
-        measured = p.measured if math.isfinite(p.measured) else None
-        shown = [self._fitted(value, p.tolerance, room) for value in (p.predicted, measured)]
-        numbers = (SIGNS[p.bound] + shown[0], shown[1], cells(p)[-1])
-        inks = (theme.text, color if self.reading.finished else theme.text, theme.text)
+            return [head, self.line([Word(p.reason, theme.muted)]), self.gap(GAP)]
+        predicted, measured, tolerance = cells(p)[-3:]
+        measured = measured if math.isfinite(p.measured) else "-"
+        ink = color if self.reading.finished else theme.text
         words = [
-            Word(number, ink, NUMBER, k == 1)
-            for k, (number, ink) in enumerate(zip(numbers, inks, strict=True))
-        ]
-        ends = [(end, [word]) for end, word in zip(ENDS, words, strict=True)]
-        if p.unit:
-            ends[-1][1].append(Word(p.unit, theme.muted, 12))
-        return [head, self.line(LINE, ends=ends), self.line(GAP)]
-
-    def _fitted(self, value: float | None, tolerance: float, room: float) -> str:
-        """Return a number with the digits that its tolerance needs, or as many as there is room."""
-        if value is None:
-            return "-"
-        texts = [number(value, tolerance), *(f"{value:.{digits}g}" for digits in (8, 6, 4))]
-        size = NUMBER * self.painter.ui
-        fits = (text for text in texts if self.painter.fonts.width(text, size, bold=True) <= room)
-        return next(fits, texts[-1])
+            Word(predicted, theme.text), Word(measured, ink, bold=True),
+            Word(f"{tolerance} {p.unit}".strip(), theme.text),
+        ]  # fmt: skip
+        return [head, self.table(words, ENDS), self.gap(GAP)]
 
     def _verdict(self, prediction: Prediction, theme: Theme) -> tuple[str, str]:
         """Return how a prediction stands, in words, and their colour."""

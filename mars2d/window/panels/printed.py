@@ -10,17 +10,15 @@ from typing import Any
 
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
-from mars2d.window.panels.rows import Row, RowsPanel
 from mars2d.window.screen.player import Player
-from mars2d.window.widgets.words import Word
+from mars2d.window.widgets.panel import LINE, Panel
+from mars2d.window.widgets.rows import Row, Word
 
 MOST = 200
 """How many lines are kept."""
-LINE, SIZE, TIME = 17.0, 12.5, 11.5
-"""The heights of a line, of its letters and of those of its time, points."""
 
 
-class Printed(RowsPanel):
+class Printed(Panel):
     """Shows the lines that were printed, each with the time of the run.
 
     lines: times [s] and texts, the last one first.
@@ -50,11 +48,9 @@ class Printed(RowsPanel):
         """Return the lines, or that there are none."""
         theme = self.painter.theme
         if not self.lines:
-            return [self.line(LINE, [Word("no law has printed anything yet", theme.muted, SIZE)])]
+            return [self.line([Word("no law has printed anything yet", theme.muted)])]
         return [
-            self.line(
-                LINE, [Word(text, theme.text, SIZE)], [Word(f"{time:.2f} s", theme.muted, TIME)]
-            )
+            self.line([Word(text, theme.text)], [Word(f"{time:.2f} s", theme.muted)])
             for time, text in self.lines
         ]
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from itertools import pairwise
+from math import degrees
 from typing import Any
 
 import numpy as np
@@ -15,11 +17,10 @@ from mars2d.output.layers.forces import SLIPPING, in_newtons
 from mars2d.record.contact import net_forces, pair_forces
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
+from mars2d.window.widgets.rows import minus
 
 MAX_MESSAGES = 3
 """How many messages of the inbox are listed."""
-
-MINUS = "\N{MINUS SIGN}"
 
 LONG_NUMBER = re.compile(r"(?<![\w.])-?\d+\.\d{3,}(e[+-]?\d+)?")
 
@@ -29,10 +30,8 @@ Row = tuple[str, list[tuple[str, str]]]
 
 def kind_of(frame: Frame, body: int) -> str:
     """Return the kind of a body: its drive, or the kind of prop."""
-    n = len(frame.scenario.robots)
-    if body >= n:
-        return snake_case(type(frame.scenario.props[body - n]).__name__).replace("_", " ")
-    return snake_case(type(frame.scenario.robots[body].drive).__name__).replace("_", " ")
+    things = *(robot.drive for robot in frame.scenario.robots), *frame.scenario.props
+    return snake_case(type(things[body]).__name__).replace("_", " ")
 
 
 def state_of(frame: Frame, body: int) -> list[Row]:
@@ -47,9 +46,8 @@ def state_of(frame: Frame, body: int) -> list[Row]:
     if body >= n:
         return [*pose, ("moves", moves)]
     drive = frame.scenario.robots[body].drive
-    command = np.zeros(len(drive.inputs))
-    if len(frame.command_path):
-        command = frame.command_path[-1][: len(drive.inputs), body]
+    count, path = len(drive.inputs), frame.command_path
+    command = path[-1][:count, body] if len(path) else np.zeros(count)
     rows: list[Row] = [*pose, ("command", command_words(drive, command)), ("moves", moves)]
     if drive.wheel_names is not None:
         speeds = drive.actuators(command[:, None])[:, 0].tolist()
@@ -99,40 +97,36 @@ def holding_force(scenario: Scenario, body: int) -> float:
 
 def command_words(drive: Drive, command: Any) -> list[tuple[str, str]]:
     """Return the names and values of a command (m,); units that follow each other are said once."""
-    after = [each.unit for each in drive.inputs[1:]] + [""]
+    units = [each.unit for each in drive.inputs] + [""]
     return [
-        (
-            each.symbol,
-            _degrees(value)
-            if each.kind == "angle"
-            else _number(value, "" if each.unit == next_unit else each.unit),
-        )
-        for each, value, next_unit in zip(
-            drive.inputs, np.asarray(command).tolist(), after, strict=True
+        (each.symbol, _degrees(value) if each.kind == "angle" else _number(value, unit))
+        for each, value, unit in zip(
+            drive.inputs,
+            np.asarray(command).tolist(),
+            (own if own != after else "" for own, after in pairwise(units)),
+            strict=True,
         )
     ]
 
 
 def _number(value: float, unit: str = "") -> str:
     """Return a number in words, with its unit."""
-    text = f"{value + 0.0:.2f}" if abs(value) < 1000 else f"{value:.3g}"
-    text = "0.00" if text == "-0.00" else text
-    return f"{text} {unit}".strip().replace("-", MINUS)
+    text = f"{value:z.2f}" if abs(value) < 1000 else f"{value:.3g}"
+    return minus(f"{text} {unit}".strip())
 
 
 def _digits(value: float, unit: str) -> str:
     """Return a number of three digits, with its unit; below a millionth it is 0."""
-    return f"{value if value >= 1e-6 else 0.0:.3g} {unit}".replace("-", MINUS)
+    return minus(f"{value if value >= 1e-6 else 0.0:.3g} {unit}")
 
 
 def _degrees(angle: float) -> str:
-    turned = (np.degrees(angle) + 180.0) % 360.0 - 180.0
-    return f"{round(turned) + 0:d}°".replace("-", MINUS)
+    return minus(f"{round(degrees(wrap(angle))):d}°")
 
 
 def in_both_units(angle: float) -> str:
     """Return a heading in degrees, and in radians as laws have it: ``90° (1.571 rad)``."""
-    return f"{np.degrees(angle) + 0.0:.4g}° ({angle + 0.0:.4g} rad)".replace("-", MINUS)
+    return minus(f"{np.degrees(angle):z.4g}° ({angle:z.4g} rad)")
 
 
 def touching(frame: Frame, body: int) -> frozenset[int]:
@@ -147,13 +141,11 @@ def contacts_of(frame: Frame, body: int) -> list[str]:
     rows = frame.contacts
     mine = rows[(rows["a"] == body) | (rows["b"] == body)]
     mine = pair_forces(mine, np.zeros(len(mine), dtype=int), frame.scenario.sampling_time)
-    size = np.hypot(*mine["force"].T)
-    lines = []
-    for k in np.argsort(-size, kind="stable").tolist():
-        a, b = int(mine["a"][k]), int(mine["b"][k])
-        other = b if a == body else a
-        lines.append(f"{frame.scenario.body_name(other)}  {in_newtons(float(size[k]))}")
-    return lines
+    size, others = np.hypot(*mine["force"].T), mine["a"] + mine["b"] - body
+    return [
+        f"{frame.scenario.body_name(int(others[k]))}  {in_newtons(float(size[k]))}"
+        for k in np.argsort(-size, kind="stable")
+    ]
 
 
 def rounded(text: str) -> str:

@@ -24,7 +24,7 @@ from mars2d.window.screen.picking import Selection
 from mars2d.window.screen.player import Player
 from mars2d.window.screen.saving import Saver
 from mars2d.window.screen.viewpoint import wheel_notches
-from mars2d.window.widgets.dock import Panel
+from mars2d.window.widgets.panel import Panel
 from mars2d.window.widgets.plot import (
     Limits,
     as_number,
@@ -34,8 +34,8 @@ from mars2d.window.widgets.plot import (
     limits_of,
     polylines,
 )
-from mars2d.window.widgets.words import GAP as WORD_GAP
-from mars2d.window.widgets.words import Word, write_line
+from mars2d.window.widgets.rows import GAP as WORD_GAP
+from mars2d.window.widgets.rows import Word, write_line
 from mars2d.world.record import Record
 from mars2d.world.timeline import Timeline
 
@@ -65,7 +65,8 @@ ZOOM, SHORTEST = 1.25, 10
 class _Plot(NamedTuple):
     """A plot that was drawn: where its curves lie in the panel, and what the axes mean there.
 
-    colors, names: of the curves. below: whether the names have a line of their own below the title.
+    colors, names: of the curves. single: those that are drawn each. below: whether the names have a
+    line of their own below the title.
     """
 
     signal: Signal
@@ -73,6 +74,7 @@ class _Plot(NamedTuple):
     limits: Limits
     colors: Sequence[str]
     names: Sequence[str]
+    single: Sequence[int]
     below: bool
 
 
@@ -95,7 +97,8 @@ class Scopes(Panel):
         clock: Callable[[], float] = time.perf_counter,
     ) -> None:
         """Start with the plots that the experiment's file names; else closed."""
-        self.painter, self._player, self._clock = painter, player, clock
+        super().__init__(painter)
+        self._player, self._clock = player, clock
         self._selection = selection
         self.traces: list[Trace] = []
         self.span: float | None = None
@@ -219,32 +222,31 @@ class Scopes(Panel):
     def _draw_plots(self, surface: pygame.Surface, frame: Frame) -> None:
         """Draw the plots for which there is room, and say what is missing."""
         ui, record, fonts = self.painter.ui, self._player.source.recorded, self.painter.fonts
+        wide, size, dt = surface.get_width(), 12 * ui, frame.scenario.sampling_time
         read = [
-            without_nothing(signal) for trace in self.traces for signal in trace.read(record, frame)
+            without_nothing(each) for trace in self.traces for each in trace.read(record, frame)
         ]
-        texts = [
-            line
-            for trace in self.traces
-            if trace.error
-            for line in fonts.wrap(f"{trace.name}: {trace.error}", 12 * ui, surface.get_width(), 4)
-        ]
+        errors = [f"{trace.name}: {trace.error}" for trace in self.traces if trace.error]
+        texts = [line for error in errors for line in fonts.wrap(error, size, wide, 4)]
         height = surface.get_height() - round(FOOT * ui)
         fit = max(1, int((height / ui - LINE * len(texts)) // LEAST))
         if len(read) > fit:
             names = ", ".join(dict.fromkeys(signal.name for signal in read[fit:]))
-            texts.append(fonts.shorten(f"no room for {names}", 12 * ui, surface.get_width()))
+            texts.append(fonts.shorten(f"no room for {names}", size, wide))
         for k, text in enumerate(texts):
-            image = fonts.render(text, 12 * ui, self.painter.theme.error.ink)
-            surface.blit(image, (0, round(k * LINE * ui)))
+            at = 0, round((k + 0.5) * LINE * ui)
+            self.painter.write(surface, text, size, self.painter.theme.error.ink, midleft=at)
         top, read = round(LINE * len(texts) * ui), read[:fit]
         start, end = self._shown(frame, max(len(record) - 1, frame.iteration))
-        high, self._plots = (height - top) // max(1, len(read)), []
+        high, seen = (height - top) // max(1, len(read)), slice(int(start / dt), int(end / dt) + 2)
+        self._plots = []
         for k, signal in enumerate(read):
-            place = pygame.Rect(0, top + k * high, surface.get_width(), high)
-            last = k == len(read) - 1
-            self._plots.append(
-                self._draw_plot(surface, place, signal, frame, (start, end), last=last)
-            )
+            limits = limits_of(start, end, signal.values[seen])
+            place = pygame.Rect(0, top + k * high, wide, high)
+            plot = self._plot(place, signal, frame.scenario, limits)
+            draw_axes(surface, plot.area, self.painter, limits, times=k == len(read) - 1)
+            self._draw_curves(surface, plot, dt)
+            self._plots.append(plot)
 
     def _shown(self, frame: Frame, newest: int) -> tuple[float, float]:
         """Return the time that is shown, seconds."""
@@ -256,62 +258,41 @@ class Scopes(Panel):
         self._end = max(self._end, self.span)
         return self._end - self.span, self._end
 
-    def _draw_plot(
-        self,
-        surface: pygame.Surface,
-        place: pygame.Rect,
-        signal: Signal,
-        frame: Frame,
-        shown: tuple[float, float],
-        *,
-        last: bool,
+    def _plot(
+        self, place: pygame.Rect, signal: Signal, scenario: Scenario, limits: Limits
     ) -> _Plot:
-        """Draw the axes and the curves of a signal; last: numbers of time stand below it."""
-        (start, end), ui, dt = shown, self.painter.ui, frame.scenario.sampling_time
-        names = self._names(frame.scenario, signal)
-        below = 1 < len(names) <= NAMED and place.height >= HIGH * ui
-        head = TITLE + LINE if below else TITLE
-        top, left = place.top + round(head * ui), place.left + round(LEFT * ui)
+        """Return a plot in a place; the colour of a curve is its body's, if it tells them apart."""
+        ui, count = self.painter.ui, signal.values.shape[1]
+        each = count // max(1, len(signal.bodies))
+        bodies = [body for body in signal.bodies for _ in range(each)]
+        names = [str(scenario.bodies[body].name) for body in bodies]
+        if each > 1:
+            names = [f"{name} {k % each}" for k, name in enumerate(names)]
+        colors = [scenario.body_colors[body] for body in bodies]
+        if not colors or len(set(colors)) < count <= len(PALETTE):
+            colors = [PALETTE[k % len(PALETTE)] for k in range(count)]
+        single: Sequence[int] = range(count)
+        if count > CROWD:  # of many only those of the chosen body
+            single = [k for k, body in enumerate(bodies) if body == self._selection.body]
+        below = 1 < count <= NAMED and place.height >= HIGH * ui
+        top, left = place.top + round((TITLE + LINE * below) * ui), place.left + round(LEFT * ui)
         area = pygame.Rect(left, top, place.right - left - 2, place.bottom - round(GAP * ui) - top)
-        times = np.arange(len(signal.values), dtype=float) * dt
-        seen = slice(max(int(start / dt), 0), int(end / dt) + 2)
-        limits = limits_of(start, end, signal.values[seen])
-        draw_axes(surface, area, self.painter, limits, times=last)
-        colors = self._colors(frame.scenario, signal)
-        before = surface.get_clip()
+        shades = [self.painter.theme.shade(color) for color in colors]
+        names = names if bodies else [*signal.curves] if count > 1 else [""]
+        return _Plot(signal, area, limits, shades, names, single, below)
+
+    def _draw_curves(self, surface: pygame.Surface, plot: _Plot, sampling_time: float) -> None:
+        """Draw the curves of a plot."""
+        signal, area, limits, before = plot.signal, plot.area, plot.limits, surface.get_clip()
+        times = sampling_time * np.arange(len(signal.values), dtype=float)
         surface.set_clip(area.inflate(2, 4).clip(before))
-        if len(colors) > CROWD:
+        if len(plot.colors) > CROWD:
             draw_quartiles(surface, area, self.painter, limits, times, signal.values)
-        for k in self._single(signal):
-            lines = polylines(
-                area, limits, times, signal.values[:, k], held=signal.held, wraps=signal.wraps
-            )
-            draw_curve(surface, self.painter, lines, colors[k], WIDTH)
+        held, wraps = signal.held, signal.wraps
+        for k in plot.single:
+            lines = polylines(area, limits, times, signal.values[:, k], held=held, wraps=wraps)
+            draw_curve(surface, self.painter, lines, plot.colors[k], WIDTH)
         surface.set_clip(before)
-        return _Plot(signal, area, limits, colors, names, below)
-
-    def _single(self, signal: Signal) -> Sequence[int]:
-        """Return the curves that are drawn each: of many only those of the chosen body."""
-        count = signal.values.shape[1]
-        if count <= CROWD:
-            return range(count)
-        each = count // max(len(signal.bodies), 1)
-        return [
-            k
-            for k in range(count)
-            if signal.bodies[k // each : k // each + 1] == (self._selection.body,)
-        ]
-
-    def _colors(self, scenario: Scenario, signal: Signal) -> list[str]:
-        """Return the colour of each curve: that of its body, if it tells the bodies apart."""
-        theme, count = self.painter.theme, signal.values.shape[1]
-        if signal.bodies:
-            each = count // len(signal.bodies)
-            found = [scenario.body_colors[body] for body in signal.bodies for _ in range(each)]
-            if len(set(found)) == count or count > len(PALETTE):
-                return [theme.shade(color) for color in found]
-        found = [PALETTE[k % len(PALETTE)] for k in range(count)]
-        return [theme.shade(color) for color in found]
 
     def _draw_cursor(self, surface: pygame.Surface, plot: _Plot, frame: Frame) -> None:
         """Draw where the time shown lies in a plot, and write the values there."""
@@ -339,10 +320,8 @@ class Scopes(Panel):
         both = [f"{name} {one}".strip() for name, one in zip(plot.names, numbers, strict=True)]
         if count > NAMED:
             text = f"middle half of {count}" if count > CROWD else f"{count} curves"
-            single = self._single(plot.signal) if count > CROWD else ()
-            own = [Word(both[k], plot.colors[k], 12) for k in single]
-            muted = Word(text, self.painter.theme.muted, 12)
-            write_line(surface, rect, self.painter, [muted], own)
+            own = [Word(both[k], plot.colors[k], 12) for k in plot.single] if count > CROWD else []
+            write_line(surface, rect, self.painter, [Word(text, self.painter.theme.muted, 12)], own)
             return
         size, gap = 12 * self.painter.ui, round(WORD_GAP * self.painter.ui)
         for texts in (both, numbers):
@@ -351,15 +330,6 @@ class Scopes(Panel):
                 words = [Word(*each, 12) for each in zip(texts, plot.colors, strict=True)]
                 write_line(surface, rect, self.painter, right=words)
                 return
-
-    def _names(self, scenario: Scenario, signal: Signal) -> Sequence[str]:
-        """Return the names of the curves; none of a single one that is of all bodies."""
-        count = signal.values.shape[1]
-        if not signal.bodies:
-            return signal.curves if count > 1 else ("",)
-        each = count // len(signal.bodies)
-        names = [str(scenario.bodies[body].name) for body in signal.bodies]
-        return [f"{name} {k}" if each > 1 else name for name in names for k in range(each)]
 
     # -- the mouse ----------------------------------------------------------------------------
 

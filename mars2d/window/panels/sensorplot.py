@@ -13,17 +13,17 @@ from mars2d.output.raster.brushes import rgba
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Float, Frame
 from mars2d.sensors.base import Sensor
-from mars2d.window.panels.rows import Row, RowsPanel
-from mars2d.window.widgets.words import Word
+from mars2d.window.widgets.panel import LINE, Panel
+from mars2d.window.widgets.rows import Row, Word, minus
 
-ROW, BARS = 18.0, 40.0
-"""The heights of a number or of colours, and of bars, points."""
+BARS = 40.0
+"""The height of bars, points."""
 
 MAX_LINES = 6
 """How many numbers are written; more are drawn as bars."""
 
 
-def rows_of(panel: RowsPanel, frame: Frame, robot: int, sensor: Sensor, reading: Any) -> list[Row]:
+def rows_of(panel: Panel, frame: Frame, robot: int, sensor: Sensor, reading: Any) -> list[Row]:
     """Return a sensor's reading on a robot: numbers, colours, or bars.
 
     Bars are those of now, from left to right as the robot sees where they are of beams.
@@ -32,19 +32,20 @@ def rows_of(panel: RowsPanel, frame: Frame, robot: int, sensor: Sensor, reading:
     quantities = sensor.quantities or (Quantity("value"),)
     if quantities[0].kind == "color" and now.shape[-1:] == (3,):
         strip = now[None, ::-1] if now.ndim == 2 else now[None, None]
-        return [Row(ROW, partial(_draw_colors, painter, strip))]
+        return [Row(LINE, partial(_draw_colors, painter, strip))]
     numbers = now.ravel().astype(float)
     if len(numbers) > MAX_LINES:
         beams = np.shape(getattr(sensor, "angles", ())) == now.shape
         bars, color = numbers[::-1] if beams else numbers, frame.scenario.colors[robot]
         return [Row(BARS, partial(_draw_bars, painter, bars, color))]
     theme, named = painter.theme, len(quantities) == len(numbers)
-    rows = []
-    for k, value in enumerate(numbers.tolist()):
-        quantity = quantities[k if named else 0]
-        name = Word(quantity.name if named else f"[{k}]", theme.text, 12)
-        rows.append(panel.line(ROW, [name], [Word(_in_words(value, quantity), theme.ink, 12)]))
-    return rows
+    each = [quantities[k if named else 0] for k in range(len(numbers))]
+    names = [quantity.name if named else f"[{k}]" for k, quantity in enumerate(each)]
+    values = map(_in_words, numbers.tolist(), each)
+    return [
+        panel.line([Word(name, theme.text)], [Word(value, theme.ink)])
+        for name, value in zip(names, values, strict=True)
+    ]
 
 
 def _draw_colors(
@@ -78,10 +79,9 @@ def _draw_bars(
 
 def _in_words(value: float, quantity: Quantity) -> str:
     """Return a number in words, with its unit; angles in degrees."""
-    if quantity.kind == "angle" and np.isfinite(value):
-        return f"{round(float(np.degrees(value))):d}°".replace("-", "\N{MINUS SIGN}")
     if not np.isfinite(value):
         return "nothing" if np.isnan(value) or value > 0 else str(value)
+    if quantity.kind == "angle":
+        return minus(f"{round(float(np.degrees(value))):d}°")
     text = f"{value:.3f}" if abs(value) < 10 else f"{value:.4g}"
-    unit = quantity.unit.replace("^2", "²")
-    return f"{text} {unit}".replace("-", "\N{MINUS SIGN}").strip()
+    return minus(f"{text} {quantity.unit.replace('^2', '²')}".strip())

@@ -61,53 +61,35 @@ class Trace:
 
 
 def _with_present(record: Record, frame: Frame) -> Record:
-    """Return a record with the row of a frame behind it, if it is the one that comes next."""
+    """Return a record with the row of a frame behind it, if it is the one that comes next.
+
+    What is not known of it yet, such as the command, is as in the row before.
+    """
     dt = record.scenario.sampling_time
     if frame.iteration != len(record) or abs(frame.time - len(record) * dt) >= 1e-6 * dt:
         return record
-    row = _row_of(frame)
-    columns: dict[str, Any] = {
-        name: np.concatenate([getattr(record, name), row[name][None]]) for name in COLUMNS
-    }
-    sensors = {
-        name: _with_reading(values, frame, name, record.sensor_robots[name])
-        for name, values in record.sensors.items()
-    }
+    n, velocity = frame.pose.shape[1], frame.exact_velocity
+    known = {
+        "time": frame.time, "pose": frame.pose, "prop_pose": frame.prop_pose,
+        "effort": frame.effort, "velocity": velocity[:, :n], "prop_velocity": velocity[:, n:],
+        "work": frame.work,
+    }  # fmt: skip
+    columns: dict[str, Any] = {name: getattr(record, name) for name in COLUMNS}
+    columns = {name: _longer(values, known.get(name)) for name, values in columns.items()}
+    sensors = {}
+    for name, values in record.sensors.items():
+        sensors[name], read = _longer(values), dict(frame.readings.get(name, ()))
+        for k, robot in enumerate(record.sensor_robots[name]):
+            sensors[name][-1, k] = read.get(robot, sensors[name][-1, k])
     return replace(record, **columns, sensors=sensors)
 
 
-def _row_of(frame: Frame) -> dict[str, Any]:
-    """Return the columns of a frame whose row is not recorded yet; its command holds on."""
-    n = frame.pose.shape[1]
-    command = (
-        frame.command_path[-1]
-        if len(frame.command_path)
-        else np.full((frame.scenario.inputs, n), np.nan)
-    )
-    row = {
-        "time": frame.time,
-        "pose": frame.pose,
-        "command": command,
-        "command_time": frame.time,
-        "prop_pose": frame.prop_pose,
-        "effort": frame.effort if frame.effort.size else np.full(n, np.nan),
-        "velocity": frame.exact_velocity[:, :n],
-        "prop_velocity": frame.exact_velocity[:, n:],
-        "work": frame.work,
-    }
-    return {name: np.asarray(value) for name, value in row.items()}
-
-
-def _with_reading(
-    values: NDArray[Any], frame: Frame, name: str, robots: tuple[int, ...]
-) -> NDArray[Any]:
-    """Return readings (T, m, ...) with those of a frame behind them; unknown ones hold on."""
-    read = dict(frame.readings.get(name, ()))
-    last = np.array(values[-1]) if len(values) else np.zeros(values.shape[1:], values.dtype)
-    for k, robot in enumerate(robots):
-        if robot in read:
-            last[k] = read[robot]
-    return np.concatenate([values, last[None]])
+def _longer(values: NDArray[Any], last: Any = None) -> NDArray[Any]:
+    """Return a column with a last row, or with its own once more; unknown where there is none."""
+    if np.shape(last) != values.shape[1:]:
+        unknown = np.nan if values.dtype.kind == "f" else 0
+        last = values[-1] if len(values) else np.full(values.shape[1:], unknown)
+    return np.concatenate([values, np.asarray(last, dtype=values.dtype)[None]])
 
 
 def _flat(signal: Signal) -> Signal:

@@ -54,7 +54,7 @@ class Controls:
             held=drags(self._scrub),
         )  # fmt: skip
         self.slider.draw(
-            surface, layout.slider, painter, player.speed, player.factor, pointer=pointer,
+            surface, layout.slider, painter, player.speed, pointer=pointer,
             held=drags(self._choose_speed), costs=self._costs(),
         )  # fmt: skip
 

@@ -9,20 +9,20 @@ import pygame
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
 from mars2d.scenario.roles import roles_of
-from mars2d.window.panels.rows import DOT, Row, RowsPanel
 from mars2d.window.run.play import NEXT, Play, Seat
-from mars2d.window.widgets.help import draw_cap
-from mars2d.window.widgets.words import Word
+from mars2d.window.widgets.help import row_of_keys
+from mars2d.window.widgets.panel import DOT, Panel
+from mars2d.window.widgets.rows import Row, Word
 
-TIME, ROW, LINE, KEYS, WORDS, GAP = 34.0, 24.0, 18.0, 36.0, 32.0, 8.0
-"""The heights of the time left, a row, a line of text, keys, who has won, and gaps, points."""
-SMALL, SIZE, LARGE = 13.0, 15.0, 22.0
+TIME, ROW, WORDS, GAP = 34.0, 24.0, 32.0, 8.0
+"""The heights of the time left, a row, who has won, and gaps, points."""
+SIZE, LARGE = 15.0, 22.0
 """The heights of letters, points."""
 MAX_LINES = 3
 """The most lines of why a game has ended."""
 
 
-class ScorePanel(RowsPanel):
+class ScorePanel(Panel):
     """Shows how a game stands, the keys of those who play, and in the end who has won and why."""
 
     name, title, remembered = "score", "The game", False
@@ -46,11 +46,11 @@ class ScorePanel(RowsPanel):
         play, scenario, theme = self.play, frame.scenario, self.painter.theme
         left = max(scenario.stop_time - frame.time, 0.0)
         at_end = Word(f"{left:.1f} s", theme.ink, 24, bold=True)
-        yield self.line(TIME, [Word("time left", theme.muted, SMALL)], [at_end])
+        yield self.line([Word("time left", theme.muted)], [at_end], TIME)
         distance = play.distance(frame)
         if distance is not None:
             at_end = Word(f"{distance:.2f} m", theme.ink, SIZE, bold=True)
-            yield self.line(ROW, [Word("distance", theme.muted, SMALL)], [at_end])
+            yield self.line([Word("distance", theme.muted)], [at_end], ROW)
         yield Row(GAP, self._rule)
         score = play.score()
         for role, team in roles_of(scenario).items():
@@ -76,48 +76,33 @@ class ScorePanel(RowsPanel):
         theme, contest = self.painter.theme, self.play.contest
         role, by, points = about
         dot = Word(DOT, theme.shade(frame.scenario.colors[robot]), SIZE)
-        words = dot, Word(role, theme.ink, SIZE, bold=True), Word(by, theme.muted, SMALL)
-        yield self.line(ROW, words, [Word(points, theme.ink, SIZE, bold=True)])
+        words = dot, Word(role, theme.ink, SIZE, bold=True), Word(by, theme.muted)
+        yield self.line(words, [Word(points, theme.ink, SIZE, bold=True)], ROW)
         for seat in seats:
-            yield self._keys(seat.keys)
+            yield row_of_keys(self.painter, seat.keys, [""])
             if contest is not None and seat.role:
                 yield from self._text(contest.aim(seat.role, frame.scenario), width, 2)
             elif contest is None:
                 yield from self._text(self.play.task, width, MAX_LINES)
-            yield self.line(GAP / 2)
+            yield self.gap(GAP / 2)
 
     def _ending(self, frame: Frame, width: float) -> Iterator[Row]:
         """Yield how a game has ended, why, and the keys to go on with; nothing before."""
         result, theme = self.play.result, self.painter.theme
         if result is None:
             return
-        yield self.line(WORDS, [Word(result.words, theme.running.ink, LARGE, bold=True)])
+        yield self.line([Word(result.words, theme.running.ink, LARGE, bold=True)], high=WORDS)
         yield from self._text(frame.over_message, width, MAX_LINES)
-        yield self._keys(("R",), "play again")
-        yield self._keys((str(NEXT),), "next start")
+        yield row_of_keys(self.painter, ["R"], ["play again"])
+        yield row_of_keys(self.painter, [str(NEXT)], ["next start"])
         numbers = tuple(str(choice.number) for choice in self.play.choices)
         if numbers:
-            yield self._keys(numbers, "other roles")
+            yield row_of_keys(self.painter, numbers, ["other roles"])
         yield Row(GAP, self._rule)
 
     def _text(self, text: str, width: float, most: int) -> Iterator[Row]:
         """Yield lines of text."""
-        yield from self.wrapped(LINE, Word(text, self.painter.theme.text, SMALL), width, most)
-
-    # -- drawing ------------------------------------------------------------------------------
-
-    def _keys(self, keys: tuple[str, ...], does: str = "") -> Row:
-        """Return the caps of keys, and what they do."""
-        painter = self.painter
-
-        def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
-            x = rect.left
-            for key in keys:
-                x = draw_cap(surface, painter, key, x, rect.centery, painter.ui)
-            place = x + round(4 * painter.ui), rect.centery
-            painter.write(surface, does, SIZE * painter.ui, painter.theme.text, midleft=place)
-
-        return Row(KEYS, draw)
+        yield from self.wrapped(Word(text, self.painter.theme.text), width, most)
 
     def _rule(self, surface: pygame.Surface, rect: pygame.Rect) -> None:
         surface.fill(self.painter.theme.edge, (rect.left, rect.centery, rect.width, 1))

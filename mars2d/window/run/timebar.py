@@ -9,9 +9,7 @@ import numpy as np
 import pygame
 
 from mars2d.core.plane import grid_step
-from mars2d.core.scene import Scene
 from mars2d.output.controls import MARKS
-from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.theme import mixed
 from mars2d.record.marks import MarkKind
@@ -178,13 +176,9 @@ class TimeBar(Slider):
         self, surface: pygame.Surface, painter: Painter, state: TimeState, *, lifted: bool
     ) -> None:
         """Draw the handle, larger while the mouse is over the bar."""
-        theme = painter.theme
-        color = theme.past.ink if state.past else theme.selected
-        scene = Scene()
-        center = self.x_of(state.row), -self._line.centery
-        scene.circle(center, 0.0, fill=theme.bar, pixels=11.0 if lifted else 9.0)
-        scene.circle(center, 0.0, fill=color, pixels=9.0 if lifted else 7.0)
-        painter.paint(surface, scene.shapes, PIXELS, shaded=False)
+        color = painter.theme.past.ink if state.past else painter.theme.selected
+        radius = 9.0 if lifted else 7.0
+        self._draw_handle(surface, painter, state.row, painter.theme.bar, color, radius)
 
 
 def _time(row: float, state: TimeState, digits: int | None = None) -> str:

@@ -13,7 +13,6 @@ from mars2d.core.errors import Mars2dError
 from mars2d.core.plane import Point
 from mars2d.output.layers.table import Layers
 from mars2d.output.raster.bars import Status, draw_footer, draw_header
-from mars2d.output.raster.layout import fitted
 from mars2d.output.raster.picture import arena_of, summary
 from mars2d.record.frame import Frame
 from mars2d.scenario.examples import experiment_name
@@ -232,8 +231,7 @@ class Window(PlayerWindow):
         painter.ui, self.grab.click = layout.ui, CLICK * layout.ui
         self.dock.inspector.frames = self.director.drives
         bounds = self.viewpoint.bounds or frame.scenario.bounds
-        fit = partial(fitted, bounds, layout.size)
-        room = self.dock.arrange(layout, frame, fit, bounds[3] - bounds[2])
+        room = self.dock.arrange(layout, frame, bounds)
         self.viewpoint.arrange(layout, frame.scenario, room)
         pointer = None if self._pointer is None else self._point_at(self._pointer)
         self._arena.draw(surface, frame, self.viewpoint, layers, self.dock.free, pointer)
@@ -254,7 +252,8 @@ class Window(PlayerWindow):
 
     def _draw_notes(self, surface: pygame.Surface) -> None:
         off, painter = self._selected_pixel(self.player.frame), self.looks.painter
-        self.notes.draw(surface, self.layout.plot, painter, time.monotonic(), off)
+        plot, now = self.layout.plot, time.monotonic()
+        self.notes.draw(surface, plot, painter, now, self.dock.free, off)
 
     def _draw_dock(self, surface: pygame.Surface, frame: Frame) -> None:
         """Draw the panels, away from the selected body where the arena makes no room for them."""

@@ -10,6 +10,7 @@ from pathlib import Path
 import pygame
 
 from mars2d.output.raster.painter import Painter
+from mars2d.window.widgets.rows import Scroll
 
 WIDTH, GAP, MARGIN = 212.0, 18.0, 30.0
 """The least width of a card, the gap between two, and the margin of the page, points."""
@@ -21,8 +22,8 @@ CAPTION, HEADING = 32.0, 46.0
 """The heights of a card's title and of a shelf's, points."""
 TITLE, LETTERS = 18.0, 14.5
 """The heights of letters of a shelf's title and of a card's, points."""
-NOTCH = 70.0
-"""How far a notch of the wheel scrolls, points."""
+NOTCH = 0.1
+"""How far a notch of the wheel scrolls, pages."""
 
 
 @dataclass(frozen=True)
@@ -72,7 +73,7 @@ class Page:
         self.places: list[tuple[Card, pygame.Rect]] = []
         self.buttons: list[tuple[pygame.Rect, tuple[str, ...]]] = []  # on the surface
         self.chosen = 0
-        self._scroll, self._length = 0.0, 0
+        self._scroll = Scroll()
         self._area = pygame.Rect(0, 0, 0, 0)
         self._headings: list[tuple[str, pygame.Rect]] = []
 
@@ -102,19 +103,12 @@ class Page:
                 left, top = margin + column * (width + gap), y + row * (height + gap)
                 self.places.append((card, pygame.Rect(left, top, width, height)))
             y = self.places[-1][1].bottom + round(0.5 * gap) if self.places else y
-        self._length = y + margin
         self.chosen = min(self.chosen, max(0, len(self.places) - 1))
-        self.scroll(0)
-
-    def scroll(self, notches: float, ui: float = 1.0) -> None:
-        """Scroll down by notches of the wheel."""
-        end = max(0, self._length - self._area.height)
-        self._scroll = min(max(self._scroll + notches * NOTCH * ui, 0), end)
+        self._scroll.fit(y + margin, area.height)
 
     def turn(self, pages: float) -> None:
         """Scroll down by pages."""
-        self._scroll += pages * self._area.height
-        self.scroll(0)
+        self._scroll.at += pages * self._area.height
 
     def move(self, right: int, down: int) -> None:
         """Choose a neighbour of the chosen card, and bring it into view."""
@@ -132,8 +126,7 @@ class Page:
             self.chosen = min(beyond)[2] if beyond else self.chosen
         place = self.places[self.chosen][1]
         above = 0 if place.top < 2 * place.height else place.top - place.height // 2
-        self._scroll = max(min(self._scroll, above), place.bottom + 20 - self._area.height)
-        self.scroll(0)
+        self._scroll.bring(above, place.bottom + 20)
 
     def at(self, pixel: tuple[int, int]) -> int | None:
         """Return the number of the card at a pixel of the surface, if there is one."""
@@ -152,32 +145,20 @@ class Page:
         for title, place in self._headings:
             size, at = TITLE * painter.ui, self._seen(place).midleft
             painter.write(surface, title, size, painter.theme.ink, bold=True, midleft=at)
-        for k, (card, place) in enumerate(self.places):
+        for card, place in self.places:
             if self._seen(place).colliderect(self._area):
-                self._draw_card(surface, painter, card, self._seen(place), chosen=k == self.chosen)
-        area, ui = self._area, painter.ui
-        if self._length > area.height:
-            long = max(round(30 * ui), area.height * area.height // self._length)
-            way = self._scroll / (self._length - area.height)
-            top = area.top + round(way * (area.height - long))
-            bar = pygame.Rect(area.right - round(11 * ui), top, round(7 * ui), long)
-            painter.panel(surface, bar, painter.theme.track, bar.width / 2)
+                self._draw_card(surface, painter, card, self._seen(place))
+        self._scroll.draw_bar(surface, painter, self._area.inflate(-8 * painter.ui, 0))
         surface.set_clip(None)
 
     def _seen(self, place: pygame.Rect) -> pygame.Rect:
-        return place.move(self._area.left, self._area.top - round(self._scroll))
+        return place.move(self._area.left, self._area.top - round(self._scroll.at))
 
     def _draw_card(
-        self,
-        surface: pygame.Surface,
-        painter: Painter,
-        card: Card,
-        place: pygame.Rect,
-        *,
-        chosen: bool,
+        self, surface: pygame.Surface, painter: Painter, card: Card, place: pygame.Rect
     ) -> None:
         ui, theme, fonts = painter.ui, painter.theme, painter.fonts
-        if chosen:
+        if card is self.card:
             edge = max(2, round(2.5 * ui))
             painter.panel(surface, place.inflate(2 * edge, 2 * edge), theme.selected, 10 * ui)
         painter.panel(surface, place, theme.plate, 8 * ui, theme.edge)
@@ -210,15 +191,12 @@ class Page:
 
 @lru_cache(maxsize=128)
 def _image(path: Path, size: tuple[int, int]) -> pygame.Surface | None:
-    """Return the picture of a file, as large as it has to be; None if it can't be read."""
+    """Return the middle of the picture of a file in some size; None if it can't be read."""
     try:
         found = pygame.image.load(path)
     except (OSError, pygame.error):
         return None
-    image = pygame.Surface(found.get_size(), 0, 32)
-    image.blit(found, (0, 0))
-    share = max(size[0] / image.get_width(), size[1] / image.get_height())
-    wide = [max(1, round(share * side)) for side in image.get_size()]
-    image = pygame.transform.smoothscale(image, wide)
-    left, top = ((have - want) // 2 for have, want in zip(wide, size, strict=True))
-    return image.subsurface((left, top, *size)).copy()
+    part = pygame.Rect(0, 0, *size).fit(found.get_rect())
+    image = pygame.Surface(part.size, 0, 32)
+    image.blit(found, (0, 0), part)
+    return pygame.transform.smoothscale(image, size)

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import pygame
 
 from mars2d.output.controls import CONTROLS
-from mars2d.output.raster.camera import Camera
-from mars2d.output.raster.layout import Layout
+from mars2d.output.raster.layout import Bounds, Layout, fitted
 from mars2d.output.raster.painter import Painter
 from mars2d.window.widgets.buttons import draw_icon
+from mars2d.window.widgets.panel import Frame, Panel
+from mars2d.window.widgets.rows import Word, write_line
 
 Pixel = tuple[int, int]
-Frame = Any
-"""What panels show: the dock passes it on."""
 
 WIDTH, MIN_WIDTH = 344.0, 210.0
 """The width of a column, points, and the width below which nothing is drawn."""
@@ -32,73 +31,6 @@ smaller, panels cover a part of the picture."""
 NEAR = 30.0
 """How far panels that cover a part of the picture stay from the selected body, points."""
 MOUSE = (pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEMOTION, pygame.MOUSEWHEEL)
-
-
-class Panel:
-    """A panel of the dock: a plate with a title and a close button, and content of its own.
-
-    To add one, derive a class that sets `name` and `title` and has `heights` and `draw` (and
-    `handle`, if its content can be clicked or dragged), and put it into the list of panels in
-    `window.py`. The dock does the rest: it finds a place, draws plate, title and close button,
-    passes the mouse on, and remembers from one window to the next which panels were open.
-
-    name: one word, by which the panel is opened and remembered. title: written at its top, and all
-    that is seen of it where there is no room. headed: whether the dock writes the title; else the
-    panel draws a head of its own, and leaves the corner at the upper right to the close button.
-    frames: whether the arena moves aside when it opens or changes its size. wanted: whether it is
-    to be open, or with how many plots, which need room. remembered: whether the next window opens
-    it again. pointer: where the mouse is, if it is over the panel, before each drawing.
-    """
-
-    name = ""
-    title = ""
-    headed = True
-    frames = True
-    remembered = True
-    wanted: int = False
-    pointer: Pixel | None = None
-
-    @property
-    def offered(self) -> bool:
-        """Whether there is anything to show."""
-        return True
-
-    @property
-    def is_open(self) -> bool:
-        """Whether it is wanted, and there is something to show."""
-        return bool(self.wanted and self.offered)
-
-    def open(self) -> None:
-        """Open it."""
-        self.wanted = True
-
-    def close(self) -> None:
-        """Close it."""
-        self.wanted = False
-
-    def heights(self, frame: Frame, width: float) -> tuple[float, float]:
-        """Return the least and the wanted height of the content at a width, points.
-
-        The least height may depend only on what the user has chosen, not on what happens in the
-        run: else the arena would change its size while it is watched.
-        """
-        raise NotImplementedError
-
-    def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:
-        """Draw the content within a rectangle, which is at least as high as the least height.
-
-        It is called for each picture, 60 times a second: what is costly should be kept.
-        """
-        raise NotImplementedError
-
-    def handle(self, event: pygame.Event) -> bool:  # noqa: ARG002
-        """Handle an event of the mouse within the panel; return whether a drag has begun.
-
-        Presses and turns of the wheel are those within the panel, positions are pixels of the
-        window. After a press that returned True, all moves of the mouse come here, until the
-        button is released; else only those over the panel do.
-        """
-        return False
 
 
 class Place(NamedTuple):
@@ -128,11 +60,11 @@ class Dock:
         self.plates: dict[str, pygame.Rect] = {}
         self.closes: dict[str, pygame.Rect] = {}
         self._folded: set[str] = set()
-        self._chosen: list[tuple[str, int]] = []  # panels for which the place is
         self._recent: list[str] = []  # names, the one opened last first
         self._place: Place | None = None
         self._plot = self._room = pygame.Rect(0, 0, 0, 0)
-        self._framed: tuple[object, ...] | None = None  # the panels for which the room was made
+        self._chosen: object = None  # what the place was chosen for
+        self._framed: object = None  # what the room was made for
         self._mirrored = False
         self._held: Panel | None = None
 
@@ -157,6 +89,15 @@ class Dock:
         there = [side for side in sides if min(side.size) > 0]
         return sorted(there, key=lambda side: -side.width * side.height)
 
+    @property
+    def beside(self) -> bool:
+        """Whether all panels stand beside the arena, whose room is where it would be anew."""
+        return self._place is None or self._place.room == self._room
+
+    def named(self, name: str) -> Panel:
+        """Return the panel of a name."""
+        return next(panel for panel in self.panels if panel.name == name)
+
     def open(self, names: Iterable[str]) -> None:
         """Open the panels of these names; unknown names are left out."""
         for panel in self.panels:
@@ -165,7 +106,7 @@ class Dock:
 
     def switch(self, name: str) -> None:
         """Open a panel, bring it to sight if it is folded, or close it."""
-        panel = next(panel for panel in self.panels if panel.name == name)
+        panel = self.named(name)
         if not panel.is_open:
             panel.open()
         elif name in self._folded:
@@ -175,78 +116,73 @@ class Dock:
 
     def covers(self, pixel: Pixel) -> bool:
         """Return whether a panel was drawn at a pixel."""
-        return any(plate.collidepoint(pixel) for plate in self.plates.values())
+        return self._at(pixel) is not None
+
+    def _at(self, pixel: Pixel) -> str | None:
+        return next((name for name, at in self.plates.items() if at.collidepoint(pixel)), None)
+
+    def reframe(self) -> None:
+        """Let the arena move aside for all open panels, when they are arranged next."""
+        self._framed = None
+
+    def _bring(self, name: str) -> None:
+        """Let a panel have room before all others."""
+        self._recent.remove(name)
+        self._recent.insert(0, name)
 
     # -- places -------------------------------------------------------------------------------
 
-    def arrange(
-        self, layout: Layout, frame: Frame, fit: Callable[[Layout], Camera], tall: float
-    ) -> pygame.Rect:
+    @property
+    def _shown(self) -> list[Panel]:
+        return [panel for panel in self.panels if panel.is_open]
+
+    def arrange(self, layout: Layout, frame: Frame, bounds: Bounds) -> pygame.Rect:
         """Choose where the open panels stand; return the part of the picture for the arena.
 
         It stays where it is when a panel opens that does not frame, such as for what is selected.
-        fit: returns the camera that shows all of an arena that is `tall` metres high.
+        bounds: of the arena, metres.
         """
         self._plot, shown = layout.plot, self._shown
         names = [panel.name for panel in shown]
         new = [name for name in names if name not in self._recent]
         self._recent = [*reversed(new), *(name for name in self._recent if name in names)]
         framed = layout, *(panel.name for panel in shown if panel.frames)
-        anew = framed != self._framed
+        anew, first = framed != self._framed, self._framed is None
         chosen = [(panel.name, panel.wanted) for panel in shown]
         if anew or chosen != self._chosen:  # not where only heights change
             self._chosen = chosen
-            self._place = self._best(layout, frame, fit, tall, anew=anew) if shown else None
-        place = self._place
+            self._place = self._best(layout, frame, bounds, anew=anew) if shown else None
         if self.plates.keys() != set(names):  # what covers the picture, before it is drawn
-            self.plates = self._plates(place.lanes, frame) if place else {}
+            self.plates = self._plates(frame)
         if anew:
-            moves = place is not None and (self._framed is None or len(framed) > 1)
-            self._framed, self._room = framed, place.room if place and moves else self._plot
+            moves = first or len(framed) > 1
+            room = self._place.room if self._place is not None and moves else self._plot
+            self._framed, self._room = framed, room
         return self._room
 
-    @property
-    def _shown(self) -> list[Panel]:
-        return [panel for panel in self.panels if panel.is_open]
-
-    @property
-    def beside(self) -> bool:
-        """Whether all panels stand beside the arena, whose room is where it would be anew."""
-        return self._place is None or self._place.room == self._room
-
-    def reframe(self) -> None:
-        """Let the arena move aside for all open panels, when they are arranged next."""
-        self._framed = None
-
-    def _best(
-        self, layout: Layout, frame: Frame, fit: Callable[[Layout], Camera], tall: float, *,
-        anew: bool,
-    ) -> Place | None:  # fmt: skip
+    def _best(self, layout: Layout, frame: Frame, bounds: Bounds, *, anew: bool) -> Place | None:
         """Return the place at which arena and panels are largest, if there is one.
 
         anew: whether the arena may move; else places beside where it is come first.
         """
-        shown = self._shown
 
         def scale(plot: pygame.Rect) -> float:
-            return fit(replace(layout, plot=plot)).scale
-
-        alone = scale(self._plot)
+            return fitted(bounds, layout.size, replace(layout, plot=plot)).scale
 
         def worth(place: Place) -> tuple[bool, float]:
             """Return whether all panels have room, and how large arena and panels are."""
-            arena = min(scale(place.room) / alone, 1.0)
-            wanted = sum(self._heights(panel, frame, place.lanes[0])[1] for panel in shown)
+            wanted = sum(self._heights(panel, frame, place.lanes[0])[1] for panel in self._shown)
             room = min(sum(lane.height for lane in place.lanes) / wanted, 1.0)
-            whole = dict.fromkeys(self._recent, 2)
-            fits = self._stacks(place.lanes, whole, frame) is not None
-            return fits, arena * room**0.5
+            whole = self._stacks(place.lanes, dict.fromkeys(self._recent, 2), frame)
+            return whole is not None, min(scale(place.room) / alone, 1.0) * room**0.5
 
-        places = list(self._places(frame, round(tall * alone + 56 * self.painter.ui)))
+        alone = scale(self._plot)
+        arena = round((bounds[3] - bounds[2]) * alone + 56 * self.painter.ui)
+        places = list(self._places(frame, arena))
         beside = [place for place in places if scale(place.room) >= BESIDE * alone]
         beside = [place for place in beside if not anew and place.room == self._room] or beside
         covering = [place._replace(room=self._plot) for place in places[:1]]
-        return max(beside, key=worth) if beside else next(iter(covering), None)
+        return max(beside or covering, key=worth, default=None)
 
     def _places(self, frame: Frame, arena: int) -> Iterator[Place]:
         """Yield the places for the open panels: columns at the right, and a strip below.
@@ -285,13 +221,15 @@ class Dock:
         more = PAD + (HEAD if panel.headed else 0)
         return min((least + more) * ui, lane.height), (wanted + more) * ui
 
-    def _plates(self, lanes: Sequence[pygame.Rect], frame: Frame) -> dict[str, pygame.Rect]:
-        """Return where panels stand in lanes, by name; sets which of them are folded.
+    def _plates(self, frame: Frame) -> dict[str, pygame.Rect]:
+        """Return where panels stand, by name; sets which of them are folded.
 
         Where there is no room for all, those opened longest ago are folded, then left out; that
         opened last is always seen whole.
         """
-        levels = dict.fromkeys(reversed(self._recent), 2)  # 2: whole, 1: folded, 0: left out
+        if self._place is None:
+            return {}
+        lanes, levels = self._place.lanes, dict.fromkeys(reversed(self._recent), 2)
         while (stacks := self._stacks(lanes, levels, frame)) is None:
             *others, _ = levels
             levels[max(others, key=levels.__getitem__)] -= 1
@@ -312,7 +250,8 @@ class Dock:
     ) -> list[list[tuple[str, float, float]]] | None:
         """Return the panels of each lane with their least and wanted heights; None for no room.
 
-        Each is put where most room is left.
+        Each is put where most room is left. levels: 2 for panels that are seen whole, 1 for those
+        that are folded, 0 for those that are left out.
         """
         gap, head = round(MARGIN * self.painter.ui), HEAD * self.painter.ui
         stacks: list[list[tuple[str, float, float]]] = [[] for _ in lanes]
@@ -331,15 +270,15 @@ class Dock:
             self._mirrored = False
             return 0, 0
         first, plot = self._place.lanes[0].unionall(list(self._place.lanes[1:])), self._plot
-        if first.width < plot.width // 2:  # a column at the right, which goes to the left
-            away = plot.left + plot.right - first.left - first.right, 0
-        else:
-            away = 0, plot.top + plot.bottom - first.top - first.bottom
+        across, down = (2 * (a - b) for a, b in zip(plot.center, first.center, strict=True))
+        column = first.width < plot.width // 2  # at the right, which goes to the left
+        away = (across, 0) if column else (0, down)
         near = round(2 * NEAR * self.painter.ui)
-        other = first.move(away)
-        here, there = (other, first) if self._mirrored else (first, other)
-        if here.inflate(near, near).collidepoint(spot):
-            self._mirrored ^= not there.inflate(near, near).collidepoint(spot)
+        covered = [
+            each.inflate(near, near).collidepoint(spot) for each in (first, first.move(away))
+        ]
+        if covered[self._mirrored] and not covered[not self._mirrored]:
+            self._mirrored = not self._mirrored
         return away if self._mirrored else (0, 0)
 
     # -- drawing and the mouse ----------------------------------------------------------------
@@ -358,60 +297,53 @@ class Dock:
         spot: a pixel that they should not cover, where they have no room beside the arena. free:
         where nothing may be covered; panels that would are left out. pointer: where the mouse is.
         """
-        ui, theme = self.painter.ui, self.painter.theme
+        away, plates = self._aside(spot), self._plates(frame)
         self.plates, self.closes = {}, {}
-        away = self._aside(spot)
-        plates = self._plates(self._place.lanes, frame) if self._place else {}
-        for panel in (panel for panel in self._shown if panel.name in plates):
-            plate = plates[panel.name].move(away)
-            if free is not None and plate.colliderect(free):
-                continue
-            self.painter.panel(surface, plate, theme.plate, 8 * ui, theme.edge)
-            pad, headed = round(PAD * ui), 0
-            if panel.headed or panel.name in self._folded:
-                self._draw_title(surface, plate, panel)
-                headed = round(HEAD * ui)
-            top = plate.top + (headed or round(PAD / 2 * ui))
-            inside = pointer is not None and plate.collidepoint(pointer)
-            panel.pointer = pointer if inside else None
-            if panel.name not in self._folded:
-                bottom = plate.bottom - round(PAD / 2 * ui)
-                panel.draw(
-                    surface,
-                    pygame.Rect(plate.left + pad, top, plate.width - 2 * pad, bottom - top),
-                    frame,
-                )
-            close = pygame.Rect(0, 0, round(CLOSE * ui), round(CLOSE * ui))
-            close.midright = plate.right - pad // 2, top + round(HEAD / 2 * ui) - headed
-            over = pointer is not None and close.collidepoint(pointer)
-            draw_icon(surface, CONTROLS["close"].icon, theme.ink if over else theme.muted, close)
-            self.plates[panel.name], self.closes[panel.name] = plate, close
+        for panel in self._shown:
+            plate = plates.get(panel.name, pygame.Rect(0, 0, 0, 0)).move(away)
+            if plate and not (free is not None and plate.colliderect(free)):
+                self.plates[panel.name] = plate
+                self._draw_panel(surface, frame, panel, pointer)
 
-    def _draw_title(self, surface: pygame.Surface, plate: pygame.Rect, panel: Panel) -> None:
-        ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
-        room = plate.width - (2 * PAD + CLOSE) * ui
-        word = fonts.shorten(panel.title, 13.5 * ui, room, bold=True)
-        color = theme.muted if panel.name in self._folded else theme.ink
-        middle = plate.left + PAD * ui, plate.top + HEAD / 2 * ui
-        self.painter.write(surface, word, 13.5 * ui, color, bold=True, midleft=middle)
+    def _draw_panel(
+        self, surface: pygame.Surface, frame: Frame, panel: Panel, pointer: Pixel | None
+    ) -> None:
+        """Draw a panel with its title and its close button."""
+        ui, theme, plate = self.painter.ui, self.painter.theme, self.plates[panel.name]
+        folded = panel.name in self._folded
+        pad, head = round(PAD * ui), round(HEAD * ui)
+        self.painter.panel(surface, plate, theme.plate, 8 * ui, theme.edge)
+        inside = plate.inflate(-2 * pad, -pad)
+        top = pygame.Rect(inside.topleft, (inside.width, head))
+        if panel.headed or folded:
+            top.top = plate.top
+            inside.height, inside.top = inside.bottom - top.bottom, top.bottom
+            color = theme.muted if folded else theme.ink
+            line = pygame.Rect(top.topleft, (top.width - round(CLOSE * ui), head))
+            write_line(surface, line, self.painter, [Word(panel.title, color, 13.5, bold=True)])
+        if not folded:
+            panel.draw(surface, inside, frame)
+        close = pygame.Rect(0, 0, round(CLOSE * ui), round(CLOSE * ui))
+        close.midright = plate.right - pad // 2, top.centery
+        over = pointer is not None and close.collidepoint(pointer)
+        draw_icon(surface, CONTROLS["close"].icon, theme.ink if over else theme.muted, close)
+        self.closes[panel.name] = close
 
     def handle(self, event: pygame.Event) -> bool:
         """Handle an event of the mouse; return whether a panel took it."""
         if event.type not in MOUSE:
             return False
         if self._held is not None and event.type != pygame.MOUSEBUTTONDOWN:
-            held = self._held
+            self._held.handle(event)
             if event.type == pygame.MOUSEBUTTONUP:
                 self._held = None
-            held.handle(event)
             return True
-        pixel = pygame.mouse.get_pos() if event.type == pygame.MOUSEWHEEL else event.pos
-        name = next((n for n, plate in self.plates.items() if plate.collidepoint(pixel)), None)
+        name = self._at(pygame.mouse.get_pos() if event.type == pygame.MOUSEWHEEL else event.pos)
         if name is None:
             return False
-        panel = next(panel for panel in self.panels if panel.name == name)
+        panel = self.named(name)
         left = event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT
-        if left and self.closes[name].collidepoint(pixel):
+        if left and self.closes[name].collidepoint(event.pos):
             panel.close()
         elif name in self._folded:
             if left:
@@ -419,8 +351,3 @@ class Dock:
         elif panel.handle(event):
             self._held = panel
         return event.type in (pygame.MOUSEBUTTONDOWN, pygame.MOUSEWHEEL)
-
-    def _bring(self, name: str) -> None:
-        """Let a panel have room before all others."""
-        self._recent.remove(name)
-        self._recent.insert(0, name)

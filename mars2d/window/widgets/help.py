@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from functools import lru_cache
-from typing import NamedTuple
 
 import pygame
 
@@ -12,13 +10,11 @@ from mars2d.output.raster.fonts import Fonts
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
 from mars2d.window.widgets.actions import Action
+from mars2d.window.widgets.rows import Row, height_of
 
-Groups = Iterable[tuple[str, Sequence[Action]]]
-Named = tuple[tuple[str, tuple[Action, ...]], ...]
-
-SHARES = (1.0, 0.9, 0.8, 0.7)
+SHARES = (1.0, 0.85, 0.7)
 """The scales that are tried until all is on one page, as shares of the window's."""
-SIZE, ROW, LINE = 15.0, 33.0, 19.0
+SIZE, ROW, LINE = 15.0, 31.0, 19.0
 """The heights of letters, of a row, and of each further line of a row, points."""
 HEADING = 42.0
 """The height of a group's heading, points."""
@@ -26,18 +22,8 @@ TOP, PAD, BETWEEN = 62.0, 28.0, 34.0
 """The height of the title, the margin, and the gap between two columns, points."""
 CAPS, WORDS = 114.0, (150.0, 390.0)
 """The room for keys, and the narrowest and widest line of words, points."""
-
-
-class _Row(NamedTuple):
-    """The labels of a key and the lines of its help; without labels, a group's heading."""
-
-    labels: tuple[str, ...]
-    lines: Sequence[str]
-
-    @property
-    def height(self) -> float:
-        """Points."""
-        return ROW + LINE * (len(self.lines) - 1) if self.labels else HEADING
+MOST = 3
+"""The most columns of a page."""
 
 
 class Help:
@@ -66,7 +52,11 @@ class Help:
         self.page = None
 
     def draw(
-        self, surface: pygame.Surface, layout: Layout, painter: Painter, groups: Groups
+        self,
+        surface: pygame.Surface,
+        layout: Layout,
+        painter: Painter,
+        groups: Iterable[tuple[str, Sequence[Action]]],
     ) -> None:
         """Draw the open page over the picture, if there is one.
 
@@ -74,94 +64,87 @@ class Help:
         """
         if self.page is None:
             return
-        top = layout.header.bottom
-        area = pygame.Rect(0, top, surface.get_width(), surface.get_height() - top)
-        fonts, theme = painter.fonts, painter.theme
-        named = tuple((heading, tuple(group)) for heading, group in groups)
-        high = area.height - round(16 * layout.ui)
-        ui, width, pages = _laid_out(fonts, named, (area.width, high), layout.ui)
-        self.pages, self.page = len(pages), min(self.page, len(pages) - 1)
+        area, largest, theme = surface.get_rect(), painter.ui, painter.theme
+        area.height, area.top = area.height - layout.header.bottom, layout.header.bottom
+        least, most = WORDS
+        for share in SHARES:
+            ui = painter.ui = share * largest
+            wide, high = area.width / ui - 2 * PAD, area.height / ui - 16
+            count = max(1, min(MOST, int((wide + BETWEEN) / (CAPS + least + BETWEEN))))
+            width = round(min(CAPS + most, (wide + BETWEEN) / count - BETWEEN) * ui)
+            rows = [row for named in groups for row in _rows(painter, *named, width)]
+            columns = [*_filled(rows, high - TOP - PAD)]
+            if len(columns) <= count:
+                break
+        self.pages = -(-len(columns) // count)
+        self.page = min(self.page, self.pages - 1)
         draw_veil(surface, painter, area)
         pad, step = round(PAD * ui), width + round(BETWEEN * ui)
-        tallest = max(sum(row.height for row in rows) for page in pages for rows in page)
-        panel = pygame.Rect(0, 0, len(pages[0]) * step + pad, 0)
-        panel.height = min(high, round((TOP + tallest + PAD) * ui))
-        panel.center = area.center
-        painter.panel(surface, panel, theme.plate, 14 * ui, theme.edge)
+        plate = pygame.Rect(0, 0, min(count, len(columns)) * step + 2 * pad - step + width, 0)
+        plate.height = round((TOP + max(map(height_of, columns)) + PAD) * ui)
+        plate.center = area.center
+        painter.panel(surface, plate, theme.plate, 14 * ui, theme.edge)
         title = f"Keys, page {self.page + 1} of {self.pages}" if self.pages > 1 else "Keys"
         word = "F1 goes on" if self.page + 1 < self.pages else "F1 closes this"
-        middle = panel.top + 34 * ui
-        at, end = (panel.left + pad, middle), (panel.right - pad, middle)
+        at, end = plate.move(pad, round(34 * ui)).topleft, plate.move(-pad, round(34 * ui)).topright
         painter.write(surface, title, 21 * ui, theme.ink, bold=True, midleft=at)
         painter.write(surface, word, 14 * ui, theme.muted, midright=end)
-        for k, rows in enumerate(pages[self.page]):
-            corner = panel.left + pad + k * step, panel.top + round(TOP * ui)
-            _draw_column(surface, painter, rows, pygame.Rect(corner, (width, 0)), ui)
+        for k, column in enumerate(columns[self.page * count : (self.page + 1) * count]):
+            place = pygame.Rect(plate.left + pad + k * step, plate.top + round(TOP * ui), width, 0)
+            for row in column:
+                place.height = round(row.height * ui)
+                row.draw(surface, place)
+                place.top = place.bottom
+        painter.ui = largest
 
 
-@lru_cache(maxsize=4)
-def _laid_out(
-    fonts: Fonts, groups: Named, room: tuple[int, int], largest: float
-) -> tuple[float, int, list[list[list[_Row]]]]:
-    """Return the scale, the width of a column, and the columns of each page.
+def _rows(painter: Painter, heading: str, keys: Iterable[Action], width: int) -> Iterator[Row]:
+    """Yield the heading of a group, and its keys."""
+    ui, fonts, theme = painter.ui, painter.fonts, painter.theme
 
-    room: width and height, pixels. largest: the scale of the window, pixels a point.
+    def draw(surface: pygame.Surface, place: pygame.Rect) -> None:
+        at = place.left, place.bottom - 16 * ui
+        painter.write(surface, heading, SIZE * ui, theme.running.ink, bold=True, midleft=at)
+        surface.fill(theme.edge, (place.left, place.bottom - round(3 * ui), place.width, 1))
+
+    yield Row(HEADING, draw, heading)
+    for key in keys:
+        caps = sum(cap_width(fonts, name, ui) for name in key.labels) + 10 * ui
+        left = max(CAPS * ui, caps)
+        yield row_of_keys(
+            painter, key.labels, fonts.wrap(key.help, SIZE * ui, width - left, 4), left
+        )
+
+
+def row_of_keys(
+    painter: Painter, keys: Sequence[str], lines: Sequence[str], left: float = 0.0
+) -> Row:
+    """Return a row of the caps of keys, and beside them, or further right, what they do.
+
+    left: where the lines begin at least, pixels.
     """
-    for ui in (share * largest for share in SHARES):
-        wide, (least, most) = room[0] - 2 * PAD * ui, WORDS
-        count = min(3, max(1, int((wide / ui + BETWEEN) / (CAPS + least + BETWEEN))))
-        column = min(CAPS + most, (wide / ui + BETWEEN) / count - BETWEEN) * ui
-        rows = _rows(fonts, groups, column, ui)
-        columns = [*_filled(rows, room[1] / ui - TOP - PAD)]
-        if len(columns) <= count:
-            break
-    return ui, round(column), [columns[k : k + count] for k in range(0, len(columns), count)]
+    ui = painter.ui
 
-
-def _rows(fonts: Fonts, groups: Named, column: float, ui: float) -> Iterator[_Row]:
-    for heading, group in groups:
-        yield _Row((), (heading,))
-        for key in group:
-            words = column - max(CAPS * ui, _caps(fonts, key.labels, ui))
-            yield _Row(key.labels, fonts.wrap(key.help, SIZE * ui, words, 4))
-
-
-def _filled(rows: Iterable[_Row], limit: float) -> Iterator[list[_Row]]:
-    """Yield columns of rows up to a height, points; no heading stands last."""
-    column: list[_Row] = []
-    left = limit
-    for row in rows:
-        if column and row.height + ROW * (not row.labels) > left:
-            yield column
-            column, left = [], limit
-        column.append(row)
-        left -= row.height
-    yield column
-
-
-def _draw_column(
-    surface: pygame.Surface, painter: Painter, rows: Sequence[_Row], place: pygame.Rect, ui: float
-) -> None:
-    theme, size, bottom = painter.theme, SIZE * ui, float(place.top)
-    for row in rows:
-        top, bottom = bottom, bottom + row.height * ui
-        if not row.labels:
-            at, ink = (place.left, bottom - 16 * ui), theme.running.ink
-            painter.write(surface, row.lines[0], size, ink, bold=True, midleft=at)
-            surface.fill(theme.edge, (place.left, round(bottom - 3 * ui), place.width, 1))
-            continue
-        middle, x = round(top + ROW * ui / 2), place.left
-        for name in row.labels:
+    def draw(surface: pygame.Surface, place: pygame.Rect) -> None:
+        x, middle = place.left, place.top + round(ROW * ui / 2)
+        for name in keys:
             x = draw_cap(surface, painter, name, x, middle, ui)
-        left = place.left + max(CAPS * ui, _caps(painter.fonts, row.labels, ui))
-        for k, line in enumerate(row.lines):
-            beside = left, middle + round(k * LINE * ui)
-            painter.write(surface, line, size, theme.text, midleft=beside)
+        for k, line in enumerate(lines):
+            at = max(place.left + left, x + 4 * ui), middle + round(k * LINE * ui)
+            painter.write(surface, line, SIZE * ui, painter.theme.text, midleft=at)
+
+    return Row(ROW + LINE * (len(lines) - 1), draw)
 
 
-def _caps(fonts: Fonts, labels: Iterable[str], ui: float) -> float:
-    """Return the room for the caps of keys, pixels."""
-    return sum(cap_width(fonts, name, ui) for name in labels) + 10 * ui
+def _filled(rows: Iterable[Row], limit: float) -> Iterator[list[Row]]:
+    """Yield columns of rows up to a height, points; no heading stands last."""
+    column: list[Row] = []
+    for row in rows:
+        if column and height_of([*column, row]) + ROW * bool(row.name) > limit:
+            yield column
+            column = []
+        column.append(row)
+    yield column
 
 
 def draw_veil(surface: pygame.Surface, painter: Painter, area: pygame.Rect) -> None:

@@ -10,6 +10,7 @@ import pygame
 from mars2d.output.raster.painter import Painter
 from mars2d.window.widgets.actions import CONTROL, MODIFIERS, label_of
 from mars2d.window.widgets.help import draw_veil
+from mars2d.window.widgets.rows import Scroll, Word, write_line
 from mars2d.window.widgets.text_field import TextField
 
 ROW, MORE, PAD, BOX = 30.0, 18.0, 8.0, 15.0
@@ -18,6 +19,8 @@ SIZE, SMALL = 14.5, 12.5
 """The heights of letters of an entry and of the line below it, points."""
 SCALE, LEAST = 0.9, 220.0
 """How large a docked menu is, beside others, and the width below which it gets smaller, points."""
+NOTCH = 40.0
+"""How far a notch of the wheel scrolls, pixels."""
 CHOSEN = "✓"
 """The value that marks the entry of what holds now, which is chosen when a menu opens."""
 TICK = [(0.22, 0.52), (0.42, 0.74), (0.80, 0.26)]
@@ -71,7 +74,7 @@ class Menu:
         self.plate = pygame.Rect(0, 0, 0, 0)
         self._places: list[tuple[int, Entry, pygame.Rect]] = []
         self._chosen, self._typed = 0, ""  # the number of an entry; letters typed so far
-        self._first = 0  # the entry at the top, where there is no room for all
+        self._scroll = Scroll()
         self._sought = False  # whether the chosen entry is to be brought into view
         self._stays = self._asks = self._pointed = False
 
@@ -113,7 +116,7 @@ class Menu:
         self.name, self._entries, self.corner = name, entries, corner
         self._stays, self._asks = stays or asks, asks
         now = (k for k, entry in enumerate(entries()) if entry.value == CHOSEN)
-        self._typed, self._first, self._chosen = "", 0, next(now, 0) - 1
+        self._typed, self._scroll, self._chosen = "", Scroll(), next(now, 0) - 1
         self._move(1)
 
     def close(self) -> None:
@@ -145,7 +148,7 @@ class Menu:
             self._pointed = bool(self.plate.collidepoint(event.pos))
             return self._pointed
         if event.type == pygame.MOUSEWHEEL:
-            self._first, self._sought = max(0, self._first - event.y), False
+            self._scroll.at, self._sought = self._scroll.at - event.y * NOTCH, False
             return True
         if event.type != pygame.MOUSEBUTTONDOWN:
             return False
@@ -235,7 +238,7 @@ class Menu:
         titles = [
             max(width(each.title, SIZE * ui, bold=each.act is None),
                 width(each.more, SMALL * ui))
-            + self._before(each, entries, ui) + round(FIELD * ui * (each.field is not None))
+            + self._before(each, ui) + round(FIELD * ui * (each.field is not None))
             for each in entries
         ]  # fmt: skip
         ends = max(width(f"{each.value}{each.key}", SIZE * ui) for each in entries)
@@ -244,20 +247,22 @@ class Menu:
             sum(_height(each, ui) for each in entries) + 2 * pad,
         )
 
-    def _before(self, entry: Entry, entries: Sequence[Entry], ui: float) -> int:
+    def _before(self, entry: Entry, ui: float) -> int:
         """Return the room before a title, for a tick box or dots, or as it is indented, pixels."""
         if self._docked:
             return round((BOX * entry.level + (BOX + 5) * len(entry.colors)) * ui)
-        most = max(max(len(each.colors), each.on is not None) for each in entries)
+        most = max(max(len(each.colors), each.on is not None) for each in self._listed())
         return round(most * (BOX + 9) * ui) if entry.act is not None or entry.colors else 0
 
     def draw(self, surface: pygame.Surface, bounds: pygame.Rect, painter: Painter) -> None:
         """Draw it within bounds, if it is open; where there is no room for all, a part of it."""
         if self._entries is None:
             return
-        entries, theme = self._entries(), painter.theme
-        ui = min(SCALE * painter.ui, bounds.width / LEAST) if self._docked else painter.ui
-        self._arrange(entries, bounds, painter, ui)
+        theme, largest = painter.theme, painter.ui
+        if self._docked:
+            painter.ui = min(SCALE * largest, bounds.width / LEAST)
+        ui = painter.ui
+        self._arrange(self._entries(), bounds, painter)
         if self._asks:
             draw_veil(surface, painter, bounds)
         if self._docked:
@@ -269,57 +274,35 @@ class Menu:
             if entry.act is not None and k == self._chosen and (self.focused or self._pointed):
                 edge = theme.selected if self.focused else theme.key_edge
                 painter.panel(surface, place, theme.key, 5 * ui, edge)
-            before = self._before(entry, entries, ui)
-            self._draw_entry(surface, entry, place, painter, ui, before)
-        (first, *_), (last, *_) = self._places[0], self._places[-1]
-        signs = (("▴", first > 0, "midtop"), ("▾", last + 1 < len(entries), "midbottom"))
-        for sign, there, side in signs:
-            if there:
-                at = {side: getattr(self.plate, side)}
-                painter.write(surface, sign, 12 * ui, theme.muted, **at)
+            self._draw_entry(surface, painter, entry, place)
+        self._scroll.draw_bar(surface, painter, self.plate.inflate(-4 * ui, -16 * ui))
+        painter.ui = largest
 
-    def _arrange(
-        self, entries: Sequence[Entry], bounds: pygame.Rect, painter: Painter, ui: float
-    ) -> None:
+    def _arrange(self, entries: Sequence[Entry], bounds: pygame.Rect, painter: Painter) -> None:
         """Place the plate and the entries that are seen, the chosen one among them if sought."""
-        pad, heights = round(PAD * ui), [_height(entry, ui) for entry in entries]
+        pad, heights = round(PAD * painter.ui), [_height(entry, painter.ui) for entry in entries]
         width, height = bounds.size if self._docked else self.size(painter)
-        room = min(height, bounds.height) - 2 * pad
-        self._chosen = min(self._chosen, len(entries) - 1)
-        first = min(self._first, len(entries) - 1)
-        if self._sought:
-            first = max(0, min(first, self._chosen))
-            while first < self._chosen and sum(heights[first : self._chosen + 1]) > room:
-                first += 1
-        while first > 0 and sum(heights[first - 1 :]) <= room:
-            first -= 1
-        self._first = first
-        seen = first + 1
-        while seen < len(entries) and sum(heights[first : seen + 1]) <= room:
-            seen += 1
-        able = [k for k in range(first, seen) if entries[k].act is not None]
-        self._chosen = min(able, key=lambda k: abs(k - self._chosen), default=self._chosen)
-        tall = bounds.height if self._docked else sum(heights[first:seen]) + 2 * pad
-        self.plate = pygame.Rect(self.corner, (min(width, bounds.width), tall)).clamp(bounds)
+        size = min(width, bounds.width), min(height, bounds.height)
+        self.plate = pygame.Rect(self.corner, size).clamp(bounds)
         if self._asks:
             self.plate.center = bounds.center
-        top, self._places = self.plate.top + pad, []
-        for k in range(first, seen):
-            place = pygame.Rect(self.plate.left + pad, top, self.plate.width - 2 * pad, heights[k])
-            self._places.append((k, entries[k], place))
-            top += heights[k]
+        self._chosen = min(self._chosen, len(entries) - 1)
+        sought = max(self._chosen, 0) if self._sought else None
+        seen = self._scroll.seen(heights, self.plate.inflate(-2 * pad, -2 * pad), sought)
+        self._places = [(k, entries[k], place) for k, place in seen]
+        able = [k for k, entry, _ in self._places if entry.act is not None]
+        self._chosen = min(able, key=lambda k: abs(k - self._chosen), default=self._chosen)
 
     def _draw_entry(
-        self,
-        surface: pygame.Surface,
-        entry: Entry,
-        place: pygame.Rect,
-        painter: Painter,
-        ui: float,
-        before: int,
+        self, surface: pygame.Surface, painter: Painter, entry: Entry, place: pygame.Rect
     ) -> None:
-        fonts, theme, size = painter.fonts, painter.theme, SIZE * ui
-        pad, side = round(PAD * ui), round(BOX * ui)
+        fonts, theme, ui = painter.fonts, painter.theme, painter.ui
+        pad, side, before, size = (
+            round(PAD * ui),
+            round(BOX * ui),
+            self._before(entry, ui),
+            SIZE * ui,
+        )
         left, right, middle = place.left + pad, place.right - pad, place.top + round(ROW / 2 * ui)
         box = pygame.Rect(left, middle - side // 2, side, side)
         if entry.on is not None:
@@ -334,20 +317,18 @@ class Menu:
         if head or entry.tone:
             inks = {"note": theme.muted, "warning": theme.waiting.ink}
             title = inks.get(entry.tone, value)
-        room = right - left - before
-        most = max(0.6 * room, room - pad - fonts.width(entry.title, size, bold=head))
-        words = fonts.shorten(f"{entry.value}{entry.key}", size, most)
-        end = painter.write(surface, words, size, value, midright=(right, middle)).left
+        line = pygame.Rect(left + before, place.top, right - left - before, round(ROW * ui))
+        most = line.width - pad - fonts.width(entry.title, size, bold=head)
+        words = fonts.shorten(f"{entry.value}{entry.key}", size, max(0.6 * line.width, most))
         for k, color in enumerate(entry.colors):
             dot = box.move(round(k * (BOX + 4) * ui), 0)
             painter.panel(surface, dot, theme.shade(color), side / 2)
-        text = fonts.shorten(entry.title, size, end - left - before - pad * bool(words), bold=head)
-        at = painter.write(surface, text, size, title, bold=head, midleft=(left + before, middle))
+        values = [Word(words, value, SIZE)] if words else []
+        free = write_line(surface, line, painter, [Word(entry.title, title, SIZE, head)], values)
         if entry.field is not None:
-            typed = pygame.Rect(at.right + pad, place.top, 0, place.height)
-            typed.width = place.right - typed.left
-            painter.panel(surface, typed, theme.paper, 5 * ui, theme.selected)
-            entry.field.draw(surface, typed.inflate(-2 * pad, 0), painter, size)
+            free.width += pad
+            painter.panel(surface, free, theme.paper, 5 * ui, theme.selected)
+            entry.field.draw(surface, free.inflate(-2 * pad, 0), painter, size)
         if entry.more:
             more = fonts.shorten(entry.more, SMALL * ui, place.right - pad - left - before)
             below = (left + before, middle + MORE * ui)

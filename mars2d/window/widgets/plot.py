@@ -16,6 +16,7 @@ from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.strokes import hairlines
 from mars2d.output.signals import thinned
+from mars2d.window.widgets.rows import minus
 
 Float = NDArray[np.float64]
 
@@ -39,16 +40,12 @@ def limits_of(start: float, end: float, values: Float) -> Limits:
     """Return axes on which all finite values have room, with 0 where it is not far off."""
     finite = values[np.isfinite(values)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
-    if 0.0 < low < 0.6 * high:
-        low = 0.0
-    elif 0.6 * low < high < 0.0:
-        high = 0.0
+    low = 0.0 if 0.0 < low < 0.6 * high else low
+    high = 0.0 if 0.6 * low < high < 0.0 else high
     least = max(0.02 * max(abs(low), abs(high)), 1e-9)
-    if high - low < least:
-        if low == high == 0.0:
-            high = 1.0
-        else:
-            low, high = (low + high - least) / 2, (low + high + least) / 2
+    if high - low < least:  # a constant
+        middle = (low + high) / 2
+        low, high = (0.0, 1.0) if low == high == 0.0 else (middle - least / 2, middle + least / 2)
     room = 0.08 * (high - low)
     return Limits(start, end, low - (room if low else 0.0), high + (room if high else 0.0))
 
@@ -73,7 +70,7 @@ def draw_axes(
     for k in range(ceil(low / step - 1e-9), int(np.floor(high / step + 1e-9)) + 1):
         y = area.bottom - round((k * step - low) / (high - low) * area.height)
         surface.fill(theme.grid_axis if k == 0 else theme.grid, (area.left, y, area.width, 1))
-        text = f"{k * step:.4g} {unit}".strip().replace("-", "\N{MINUS SIGN}")
+        text = minus(f"{k * step:.4g} {unit}".strip())
         painter.write(surface, text, 11 * ui, theme.muted, midright=(area.left - 6 * ui, y))
     step = round_force((end - start) / max(1.0, min(4.0, area.width / (66 * ui))))
     for k in range(ceil(start / step - 1e-9), int(end / step + 1e-9) + 1):
@@ -167,4 +164,4 @@ def as_number(value: float) -> str:
         return "nothing"
     size = abs(value)
     text = f"{value:.3g}" if size >= 1000 or 0 < size < 1e-3 else f"{value:#.3g}".rstrip(".")
-    return text.replace("-", "\N{MINUS SIGN}")
+    return minus(text)

@@ -28,11 +28,12 @@ class Answer(NamedTuple):
 class Prompt:
     """A question over which nothing else can be done.
 
-    field: to type in, if there is one. doc: says more about it. fault: an error, and the text that
-    it is about.
+    answers: that of Enter first. field: to type in, if there is one. doc: says more about it.
+    fault: an error, and the text that it is about.
     """
 
     label: str
+    answers: Sequence[Answer]
     field: TextField | None
     doc: str
     fault: tuple[str, str] = "", ""
@@ -67,6 +68,10 @@ class Prompts:
         doc: str = "",
         escape: str = "cancel",
     ) -> None:
+<<<<<<< HEAD
+        """Open a prompt, of which Enter gives the first answer; escape: what Esc does, in words."""
+        self._show(Prompt(label, [*answers, Answer(escape, key="Esc")], field, doc))
+=======
         """Open a prompt, of which Enter gives the first answer.
 
         text: stands in a field to type in, selected; None for no field. escape: what Esc does, in
@@ -76,18 +81,35 @@ class Prompts:
         if field is not None:
             field.select_all()
         self._show(Prompt(label, field, doc), [*answers, Answer(escape, key="Esc")])
+>>>>>>> editor
 
-    def _show(self, prompt: Prompt, answers: Sequence[Answer]) -> None:
+    def _show(self, prompt: Prompt) -> None:
         self.prompt = prompt
+        self._menu.open("prompt", partial(self._entries, prompt), (0, 0), asks=True)
 
-        def answer(chosen: Answer) -> None:
-            self.prompt = None
-            try:
-                chosen.act(prompt.text)
-            except Mars2dError as error:
-                prompt.fault = str(error), prompt.text
-                self._show(prompt, answers)
+    def _entries(self, prompt: Prompt) -> list[Entry]:
+        tone = "warning" if prompt.error else "note"
+        told = [Entry(prompt.error or prompt.doc, tone=tone)] if prompt.field else []
+        ways = (
+            Entry(
+                each.words,
+                partial(self._answer, prompt, each),
+                each.key,
+                value="" if each.key else "Enter",
+            )
+            for each in prompt.answers
+        )
+        return [Entry(prompt.label, field=prompt.field), *told, *ways]
 
+<<<<<<< HEAD
+    def _answer(self, prompt: Prompt, answer: Answer) -> None:
+        self.prompt = None
+        try:
+            answer.act(prompt.text)
+        except Mars2dError as error:
+            prompt.fault = str(error), prompt.text
+            self._show(prompt)
+=======
         def entries() -> list[Entry]:
             words, tone = prompt.error or prompt.doc, "warning" if prompt.error else "note"
             told = [Entry(words, tone=tone)] if words else []
@@ -98,3 +120,4 @@ class Prompts:
             return [Entry(prompt.label, field=prompt.field), *told, *ways]
 
         self._menu.open("prompt", entries, (0, 0), asks=True)
+>>>>>>> editor

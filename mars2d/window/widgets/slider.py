@@ -63,8 +63,8 @@ class Slider:
         painter.panel(surface, line, theme.track, line.height / 2)
         self._fill(surface, painter, self.x_of(value), theme.selected)
         surface.fill(theme.muted, tick)
-        x, fill = self.x_of(value), theme.selected
-        self._draw_handle(surface, painter, x, ground=theme.plate, fill=fill, large=held)
+        radius = 8.5 if held else 7.0
+        self._draw_handle(surface, painter, value, theme.plate, theme.selected, radius)
 
     def _place(self, rect: pygame.Rect, line: pygame.Rect, margin: int) -> None:
         """Set the line, and the area that is as high as `rect` and wider than the line."""
@@ -84,17 +84,15 @@ class Slider:
         self,
         surface: pygame.Surface,
         painter: Painter,
-        x: float,
-        *,
+        value: float,
         ground: str,
         fill: str,
-        large: bool,
+        radius: float,
     ) -> None:
-        """Draw the handle, a disc, at a pixel from the left. ground: the colour round it."""
-        scene, center = Scene(), (x, -self._line.centery)
-        scene.circle(center, 0.0, fill=ground, pixels=10.0 if large else 8.5)
-        edge, radius = painter.theme.selected, 8.0 if large else 6.5
-        scene.circle(center, 0.0, fill=fill, stroke=edge, width=1.5, pixels=radius)
+        """Draw the handle, a disc of a radius [points], at a value. ground: the colour round it."""
+        scene, center = Scene(), (self.x_of(value), -self._line.centery)
+        scene.circle(center, 0.0, fill=ground, pixels=radius + 2.0)
+        scene.circle(center, 0.0, fill=fill, pixels=radius)
         painter.paint(surface, scene.shapes, PIXELS, shaded=False)
 
 
@@ -126,17 +124,15 @@ class SpeedSlider(Slider):
         rect: pygame.Rect,
         painter: Painter,
         speed: float,
-        reached: float | None = None,
         *,
         pointer: tuple[int, int] | None = None,
         held: bool = False,
         costs: str = "",
     ) -> None:
-        """Draw the slider on a part of a surface.
+        """Draw the slider on a part of a surface, and beside it the speed in words.
 
-        speed: 0 in manual mode, inf for "max". reached: the recent factor of real time, if known.
-        pointer: where the mouse is. held: whether the mouse drags the handle. costs: what takes the
-        time, which the words beside the slider say under the pointer.
+        speed: 0 in manual mode, inf for "max". pointer: where the mouse is. held: whether the mouse
+        drags the handle. costs: what takes the time, which the words say under the pointer.
         """
         ui, theme, pad = painter.ui, painter.theme, round(16 * painter.ui)
         surface.fill(theme.bar, rect)
@@ -148,38 +144,17 @@ class SpeedSlider(Slider):
         hovered = held or (pointer is not None and self.hit(pointer))
         real_time = self.rungs.index(1.0)
         self.draw_value(surface, inner, painter, self.value_of(speed), real_time, held=hovered)
-        self._words(surface, rect, painter, speed, reached)
+        left, word = self._line.right + round(20 * ui), times(speed)
+        fits = painter.fonts.width(word, 16 * ui, bold=True) <= rect.right - round(14 * ui) - left
+        size, at = (16 if fits else 12), (left, rect.centery)
+        painter.write(surface, word, size * ui, theme.ink, bold=True, midleft=at)
+        above = rect.top - round(4 * ui)
         if hovered and pointer is not None:
             wanted = self.speed_at(pointer[0])
-            at = round(self.x_of(self.value_of(wanted))), rect.top - round(4 * ui)
+            at = round(self.x_of(self.value_of(wanted))), above
             draw_tooltip(surface, painter, times(wanted), midbottom=at)
         elif costs and pointer is not None and rect.collidepoint(pointer):
-            at = rect.right, rect.top - round(4 * ui)
-            draw_tooltip(surface, painter, costs, bottomright=at)
-
-    def _words(
-        self,
-        surface: pygame.Surface,
-        rect: pygame.Rect,
-        painter: Painter,
-        speed: float,
-        reached: float | None,
-    ) -> None:
-        """Write the speed, and below it the speed that is reached if that is less."""
-        ui, theme, fonts = painter.ui, painter.theme, painter.fonts
-        left = self._line.right + round(20 * ui)
-        room = rect.right - round(14 * ui) - left
-        behind = reached is not None and (speed == inf or reached < BEHIND * speed)
-        at, word = (left, rect.centery - 9 * ui * behind), times(speed)
-        size = 16 if fonts.width(word, 16 * ui, bold=True) <= room else 12
-        painter.write(surface, word, size * ui, theme.ink, bold=True, midleft=at)
-        if reached is None or not behind:
-            return
-        factor = times(reached)
-        fitting = (t for t in (f"reaches {factor}", factor) if fonts.width(t, 12.5 * ui) <= room)
-        color = theme.muted if speed == inf else theme.waiting.ink
-        below = (left, rect.centery + 11 * ui)
-        painter.write(surface, next(fitting, ""), 12.5 * ui, color, midleft=below)
+            draw_tooltip(surface, painter, costs, bottomright=(rect.right, above))
 
 
 def draw_tooltip(

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import re
-
 import pygame
 
 from mars2d.output.raster.painter import Painter
 from mars2d.window.widgets.actions import CONTROL
-from mars2d.window.widgets.clipboard import copied, pasted
 
 
 class TextField:
@@ -83,9 +80,8 @@ class TextField:
         if event.mod & CONTROL and name in ("a", "c", "x", "v"):
             self._use_clipboard(name)
             return True
-        by_word = bool(event.mod & (CONTROL | pygame.KMOD_ALT))
         places = {
-            "left": self._beyond(-1, by_word), "right": self._beyond(1, by_word),
+            "left": max(self.caret - 1, 0), "right": min(self.caret + 1, len(self.text)),
             "home": 0, "end": len(self.text),
         }  # fmt: skip
         if name in places and self.text:
@@ -96,7 +92,7 @@ class TextField:
             return True
         if name in ("backspace", "delete") and self.text:
             if self.caret == self._mark:
-                self.caret = self._beyond(-1 if name == "backspace" else 1, by_word)
+                self.caret = places["left" if name == "backspace" else "right"]
             self.write("")
             return True
         typed = event.unicode
@@ -111,15 +107,6 @@ class TextField:
             self.write(pasted())
         elif start < end and copied(self.text[start:end]) and letter == "x":
             self.write("")
-
-    def _beyond(self, way: int, by_word: bool) -> int:
-        """Return where the caret gets by one character or word to the left, -1, or right, 1."""
-        if not by_word:
-            return min(max(self.caret + way, 0), len(self.text))
-        edges = [found.start() for found in re.finditer(r"\b\w", self.text)]
-        if way < 0:
-            return max((edge for edge in edges if edge < self.caret), default=0)
-        return min((edge for edge in edges if edge > self.caret), default=len(self.text))
 
     def _point(self, event: pygame.Event) -> bool:
         """Put the caret where the mouse is, and select by a drag."""
@@ -180,3 +167,22 @@ class TextField:
         surface.set_clip(before)
         if pygame.display.get_init():  # an input method puts its list of words there
             pygame.key.set_text_input_rect(band.move(widths[caret] - widths[start], 0))
+
+
+def copied(text: str) -> bool:
+    """Copy text to the clipboard; return whether that worked."""
+    if not pygame.display.get_init() or pygame.display.get_surface() is None:
+        return False
+    try:
+        pygame.scrap.put_text(text)
+    except pygame.error:
+        return False
+    return pasted() == text
+
+
+def pasted() -> str:
+    """Return the text on the clipboard, "" if there is none or it can't be reached."""
+    try:
+        return pygame.scrap.get_text()
+    except pygame.error:
+        return ""

@@ -1,0 +1,164 @@
+"""Panels of the dock: plates with a title, a close button, and rows that scroll."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+from math import floor
+from typing import Any
+
+import pygame
+
+from mars2d.output.raster.painter import Painter
+from mars2d.window.widgets.rows import BAR, Row, Scroll, Word, height_of, width_of, write_line
+
+Frame = Any
+"""What panels show: the dock passes it on."""
+
+DOT = "\N{BLACK CIRCLE}"
+"""A word that stands for a robot, or for how something stands, by its colour."""
+LINE = 18.0
+"""The height of a row of words, points."""
+NOTCH = 38.0
+"""How far a notch of the wheel scrolls, points."""
+
+
+class Panel:
+    """A panel of the dock: `rows` that scroll, above a `foot` of rows that stay.
+
+    To add one, derive a class that sets `name` and `title` and has `rows` (or `heights`, `draw` and
+    `handle`, if its content is of another kind), and put it into the list of panels in `panels.py`.
+    The dock does the rest: it finds a place, draws plate, title and close button, passes the mouse
+    on, and remembers from one window to the next which panels were open.
+
+    name: one word, by which the panel is opened and remembered. title: written at its top, and all
+    that is seen of it where there is no room. headed: whether the dock writes the title; else the
+    panel draws a head of its own, and leaves the corner at the upper right to the close button.
+    frames: whether the arena moves aside when it opens or changes its size. wanted: whether it is
+    to be open, or with how many plots, which need room. remembered: whether the next window opens
+    it again. least: the least height of rows and foot, points. lacks: why there is nothing to show,
+    or "". places: where named rows were drawn.
+    """
+
+    name = ""
+    title = ""
+    headed = True
+    frames = True
+    remembered = True
+    wanted: int = False
+    least = 72.0
+    lacks = ""
+
+    def __init__(self, painter: Painter) -> None:
+        """Start closed, at the top."""
+        self.painter, self.scroll = painter, Scroll()
+        self.places: dict[str, pygame.Rect] = {}
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it is wanted, and there is something to show."""
+        return bool(self.wanted) and not self.lacks
+
+    def open(self) -> None:
+        """Open it."""
+        self.wanted = True
+
+    def close(self) -> None:
+        """Close it."""
+        self.wanted = False
+
+    # -- content --------------------------------------------------------------------------------
+
+    def rows(self, frame: Frame, width: float) -> Sequence[Row]:
+        """Return the rows of now; width: points."""
+        raise NotImplementedError
+
+    def foot(self, width: float) -> Sequence[Row]:  # noqa: ARG002
+        """Return the rows below, which do not scroll; width: points."""
+        return ()
+
+    def heights(self, frame: Frame, width: float) -> tuple[float, float]:
+        """Return the least and the wanted height of the content at a width, points.
+
+        The least height may depend only on what the user has chosen, not on what happens in the
+        run: else the arena would change its size while it is watched.
+        """
+        wanted = height_of(self.rows(frame, width)) + height_of(self.foot(width))
+        return self.least, max(self.least, wanted)
+
+    def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:
+        """Draw the content within a rectangle, which is at least as high as the least height.
+
+        It is called for each picture, 60 times a second: what is costly should be kept.
+        """
+        ui, width = self.painter.ui, rect.width / self.painter.ui
+        rows, foot = self.rows(frame, width), self.foot(width)
+        area = rect.copy()
+        area.height -= round(height_of(foot) * ui)
+        self.scroll.fit(height_of(rows) * ui, area.height)
+        beside = area.copy()
+        if self.scroll.cut:  # the bar takes some of the width
+            rows = self.rows(frame, width - BAR)
+            beside.width -= round(BAR * ui)
+        seen = self.scroll.seen([row.height * ui for row in rows], beside)
+        self.places = {rows[k].name: place for k, place in seen if rows[k].name}
+        for k, place in seen:
+            rows[k].draw(surface, place)
+        self.scroll.draw_bar(surface, self.painter, area)
+        top = area.bottom
+        for row in foot:
+            row.draw(surface, pygame.Rect(rect.left, top, rect.width, round(row.height * ui)))
+            top += round(row.height * ui)
+
+    def handle(self, event: pygame.Event) -> bool:
+        """Handle an event of the mouse within the panel; return whether a drag has begun.
+
+        Presses and turns of the wheel are those within the panel, positions are pixels of the
+        window. After a press that returned True, all moves of the mouse come here, until the
+        button is released; else only those over the panel do.
+        """
+        if event.type == pygame.MOUSEWHEEL:
+            self.scroll.at -= event.y * NOTCH * self.painter.ui
+        return False
+
+    # -- rows of words --------------------------------------------------------------------------
+
+    def line(
+        self, left: Sequence[Word] = (), right: Sequence[Word] = (), high: float = LINE
+    ) -> Row:
+        """Return a row of words from both ends."""
+        return Row(high, lambda surface, rect: write_line(surface, rect, self.painter, left, right))
+
+    def table(self, words: Sequence[Word], ends: Sequence[float], left: Sequence[Word] = ()) -> Row:
+        """Return a row of columns, in letters as large as all fit.
+
+        ends: of columns, in parts of the width; each has as many of the words. left: labels.
+        """
+        each, ui = len(words) // len(ends), self.painter.ui
+        cells = [words[k : k + each] for k in range(0, len(words), each)]
+        wide = [width_of(self.painter, cell) for cell in ([*left, *cells[0]], *cells[1:])]
+
+        def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
+            edges = [round(end * rect.width) for end in (0.0, *ends)]
+            share = min((b - a) / w for (a, b), w in zip(pairwise(edges), wide, strict=True))
+
+            def sized(word: Word) -> Word:
+                size = word.size if share >= 1 else floor(share * word.size * ui) / ui
+                return word._replace(size=size)
+
+            for (a, b), cell in zip(pairwise(edges), cells, strict=True):
+                place = pygame.Rect(rect.left + a, rect.top, b - a, rect.height)
+                write_line(surface, place, self.painter, right=[sized(word) for word in cell])
+            write_line(surface, rect, self.painter, [sized(word) for word in left])
+
+        return Row(LINE, draw)
+
+    def gap(self, high: float) -> Row:
+        """Return an empty row."""
+        return self.line(high=high)
+
+    def wrapped(self, word: Word, width: float, most: int = 100) -> Iterator[Row]:
+        """Yield the lines of a text; most: as many as they are at most."""
+        ui, (text, color, size, bold) = self.painter.ui, word
+        for each in self.painter.fonts.wrap(text, size * ui, width * ui, most) if text else ():
+            yield self.line([Word(each, color, size, bold)])
