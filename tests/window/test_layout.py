@@ -67,9 +67,8 @@ def faults_of_editor(size, text):
         plot = editor.layout.plot  # the arena has words of its own
         surface.words = [(word, at) for word, at in surface.words if not plot.contains(at)]
         yield from (*surface.crowded(), *surface.cut())
-        if size[0] >= 1280:  # smaller ones shorten what is rarely read
-            panel = [word for word, at in surface.words if at.left > plot.right]
-            yield from (word for word in panel if word.endswith("…"))
+        panel = [word for word, at in surface.words if at.left > plot.right and size[0] >= 1280]
+        yield from (word for word in panel if word.endswith("…"))
     if plot.width * plot.height < LEAST * size[0] * size[1]:
         yield f"the arena has {plot.width * plot.height / size[0] / size[1]:.2f} of the picture"
     buttons = [*editor._toolbar.places.items(), *editor._header.places.items()]

@@ -213,9 +213,8 @@ class Properties:
         first, *others = whole.parts
         for sensor in first.sensors:
             if all(robot.sensor(sensor.key) for robot in others):
-                subject = self._sensors(robots, sensor.key)
                 kind = type(sensor).__name__ * (sensor.name is not None)
-                rows.append(self._part(sensor.key, kind, subject))
+                rows.append(self._part(sensor.key, kind, self._sensors(robots, sensor.key)))
         return rows
 
     def _rows_of_joints(self, bodies: Items) -> list[Entry]:

@@ -68,10 +68,6 @@ class Prompts:
         doc: str = "",
         escape: str = "cancel",
     ) -> None:
-<<<<<<< HEAD
-        """Open a prompt, of which Enter gives the first answer; escape: what Esc does, in words."""
-        self._show(Prompt(label, [*answers, Answer(escape, key="Esc")], field, doc))
-=======
         """Open a prompt, of which Enter gives the first answer.
 
         text: stands in a field to type in, selected; None for no field. escape: what Esc does, in
@@ -80,16 +76,15 @@ class Prompts:
         field = None if text is None else TextField(text, opened_by_key=True)
         if field is not None:
             field.select_all()
-        self._show(Prompt(label, field, doc), [*answers, Answer(escape, key="Esc")])
->>>>>>> editor
+        self._show(Prompt(label, [*answers, Answer(escape, key="Esc")], field, doc))
 
     def _show(self, prompt: Prompt) -> None:
         self.prompt = prompt
         self._menu.open("prompt", partial(self._entries, prompt), (0, 0), asks=True)
 
     def _entries(self, prompt: Prompt) -> list[Entry]:
-        tone = "warning" if prompt.error else "note"
-        told = [Entry(prompt.error or prompt.doc, tone=tone)] if prompt.field else []
+        words, tone = prompt.error or prompt.doc, "warning" if prompt.error else "note"
+        told = [Entry(words, tone=tone)] if words else []
         ways = (
             Entry(
                 each.words,
@@ -101,7 +96,6 @@ class Prompts:
         )
         return [Entry(prompt.label, field=prompt.field), *told, *ways]
 
-<<<<<<< HEAD
     def _answer(self, prompt: Prompt, answer: Answer) -> None:
         self.prompt = None
         try:
@@ -109,15 +103,3 @@ class Prompts:
         except Mars2dError as error:
             prompt.fault = str(error), prompt.text
             self._show(prompt)
-=======
-        def entries() -> list[Entry]:
-            words, tone = prompt.error or prompt.doc, "warning" if prompt.error else "note"
-            told = [Entry(words, tone=tone)] if words else []
-            ways = [
-                Entry(each.words, partial(answer, each), each.key, value="Enter" * (not each.key))
-                for each in answers
-            ]
-            return [Entry(prompt.label, field=prompt.field), *told, *ways]
-
-        self._menu.open("prompt", entries, (0, 0), asks=True)
->>>>>>> editor
