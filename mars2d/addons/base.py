@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from inspect import isfunction
 from typing import Any, ClassVar
 
 import numpy as np
@@ -62,10 +63,15 @@ class Addon(Stateful):
     """Its own random stream; only the copy that a world works on has one."""
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
-        for attribute in vars(cls):
+        ours = [(name, each) for name, each in vars(Addon).items() if isfunction(each)]
+        idle = all(getattr(cls, name) is each for name, each in ours)
+        for attribute, value in vars(cls).items():
+            hint = instead(attribute, "a hook")
             if attribute.startswith("on_") and attribute not in HOOKS:
-                hint = instead(attribute, "a hook") or nearest(attribute, HOOKS)
+                hint = hint or nearest(attribute, HOOKS)
                 raise InputError(f"{cls.__name__}.{attribute} is no hook of an add-on{hint}")
+            if idle and hint and callable(value):
+                raise InputError(f"{cls.__name__}.{attribute} is never called{hint}")
         super().__init_subclass__(**kwargs)
 
     @property

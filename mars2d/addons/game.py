@@ -91,11 +91,11 @@ class Game(Elimination):
         doc="what catches an evader; None: nothing",
     )  # fmt: skip
     goal: Outline | None = entry(
-        default=None, check=checks.optional(checks.outline, 3), unit="m",
+        default=None, check=checks.optional(checks.polygon), unit="m",
         doc="the polygon that the evaders must reach; None: they must stay free",
     )  # fmt: skip
     home: Outline | None = entry(
-        default=None, check=checks.optional(checks.outline, 3), unit="m",
+        default=None, check=checks.optional(checks.polygon), unit="m",
         doc="the polygon that evaders carry the flag to, from the goal; None: they need not",
     )  # fmt: skip
     hunted: tuple[str | int, ...] | None = entry(

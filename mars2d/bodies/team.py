@@ -193,11 +193,10 @@ class Drives:
                 )
                 for row, part in zip(twist, _rows(moved), strict=True):
                     row[team.columns] = part
+                _check(twist[:, team.columns])
             except BaseException as error:
                 team.moving.blame(error)
                 raise
-        if not within(MAX_TWIST, twist):
-            raise LawError(f"a drive asks for {shown(twist.tolist())}, more than {MAX_TWIST:g}")
         return twist
 
 
@@ -238,6 +237,13 @@ def _rows(twist: Any) -> Any:
     if not hasattr(twist, "__len__") or len(twist) != 3:
         raise LawError(f"twist returned {shown(twist)}: {ROWS}")
     return twist
+
+
+def _check(twist: Float) -> None:
+    """Check the twists (3, k) of some robots."""
+    if not within(MAX_TWIST, twist):
+        given = shown(twist.tolist())
+        raise LawError(f"twist returned {given}: expected finite numbers, {MAX_TWIST:g} at most")
 
 
 def _grouped(drives: Mapping[str, Drive]) -> list[tuple[Drive, list[str]]]:

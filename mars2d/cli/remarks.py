@@ -16,7 +16,7 @@ import numpy as np
 from mars2d.core.errors import counted
 from mars2d.core.materials import GRAVITY
 from mars2d.core.plane import outside_polygon
-from mars2d.core.usercode import definition
+from mars2d.core.usercode import definition, written
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.robot import Robot
 from mars2d.world.world import World
@@ -27,6 +27,9 @@ ORDERED = (ast.Lt, ast.LtE, ast.Gt, ast.GtE)
 SENSED = re.compile(r".*\.sense\.(\w+)(\[.*\])?")
 """A reading in a law's code, or an item of it."""
 
+RETURNED = re.compile(r"(?:np\.(?:as)?array\()?(\w+)\)?")
+"""What a law returns as it is: a name, or its array."""
+
 _SLEEP = "sleep has no meaning in simulated time; compare robot.time"
 WAITING = {
     "time.sleep": _SLEEP,
@@ -36,51 +39,37 @@ WAITING = {
 }
 """Calls that would wait for somebody, and what to write instead."""
 
-BOUNDS = [f"max_{name}" for name in ("linear_speed", "angular_speed", "acceleration")]
-BOUNDS += ["max_steering", "max_steering_rate"]
-"""The bounds that a drive may have."""
-
 MOST = 0.5
 """The share of cut commands above which a run gets a remark."""
 
 WHIRL = 30.0
-"""Rad/s that no robot on wheels turns at."""
+"""Rad/s that no robot on wheels turns at, nor rad that it starts at; it steers by pi at most."""
 
 LATE = 10.0
 """How many times longer than a control step laws may take it without a remark."""
 
-STILL = 1e-3
-"""How far a blow may shift a prop that is said not to move, metres."""
+STILL, SHIFTED = 1e-3, 0.02
+"""How far a prop may go that is said not to move, and one that blows shifted only, metres."""
 
 
 def before(experiment: Experiment) -> Iterator[str]:
     """Yield remarks on an experiment that has not been run."""
     for robot in experiment.scenario.robots:
         theta = robot.pose[2]
-        if _like_degrees(theta):
+        if abs(theta) >= WHIRL and theta % 15 == 0:  # such as 45 or -180
             yield f"{robot.name} starts at theta = {theta:g} rad{_meant(theta)}"
     robots = experiment.scenario.robots
     laws = [*(robot.controller for robot in robots), experiment.control]
     yield from _of_laws(filter(None, laws), robots)
+    if experiment.control is not None and len(robots) == experiment.scenario.inputs:
+        yield from _of_rows(written(experiment.control), len(robots))
 
 
-class Run:
-    """Watches a run for what is legal and hardly meant."""
-
-    def __init__(self) -> None:
-        self._world: World | None = None
-
-    def __call__(self, world: World) -> None:
-        """Follow a world, as a watcher."""
-        self._world = world
-
-    def remarks(self) -> Iterator[str]:
-        """Yield remarks on the commands, the laws, the props and the end of the run so far."""
-        if self._world is not None and self._world.iteration:
-            yield from _of_commands(self._world)
-            yield from _of_time(self._world)
-            yield from _of_props(self._world)
-            yield from _of_end(self._world)
+def after(world: World) -> Iterator[str]:
+    """Yield remarks on the commands, the laws, the props and the end of a run so far."""
+    if world.iteration:
+        for remarks in (_of_commands, _of_time, _of_props, _of_end):
+            yield from remarks(world)
 
 
 def _of_commands(world: World) -> Iterator[str]:
@@ -93,9 +82,11 @@ def _of_commands(world: World) -> Iterator[str]:
     for i, robot in enumerate(robots):
         for row, quantity in enumerate(robot.drive.inputs):
             asked = cuts.asked[row, i] or first_command[row, i]
-            turns = quantity.name == "omega" and robot.drive.wheel_names is not None
-            if turns and (_like_degrees(asked) or abs(asked) >= WHIRL):
-                yield f"{robot.name} was given {quantity.name} = {asked:g} rad/s{_meant(asked)}"
+            steers = quantity.kind == "angle"
+            spins = quantity.name == "omega" and (robot.drive.wheel_names or robot.drive.holonomic)
+            if (steers and abs(asked) > pi) or (spins and abs(asked) >= WHIRL):
+                given = f"{quantity.name} = {asked:g} {quantity.unit}"
+                yield f"{robot.name} was given {given}{_meant(asked)}"
     shares = cuts.count / (world.iteration + 1)
     cut = [
         i for i in np.argsort(-shares, kind="stable")
@@ -105,11 +96,14 @@ def _of_commands(world: World) -> Iterator[str]:
         others = counted(len(cut) - 1, "other robot")
         rest = f", and most of those of {others}" if len(cut) > 1 else ""
         first, asked = robots[cut[0]], cuts.asked[:, cut[0]]
-        names = " and ".join(f"{q.name} [{q.unit}]" for q in first.drive.inputs)
+        bounds = " and ".join(
+            f"{each.name} [{each.unit}] from {low:.3g} to {high:.3g}"
+            for each, low, high in zip(first.drive.inputs, *first.drive.bounds, strict=True)
+        )
+        last = ", ".join(f"{number:.3g}" for number in asked[: len(first.drive.inputs)])
         yield (
             f"{shares[cut[0]]:.0%} of the commands of {first.name}{rest} were cut by the drive's "
-            f"bounds, {_bounds(first)}: they mean {names}, and the last was "
-            f"({', '.join(f'{number:.3g}' for number in asked[: len(first.drive.inputs)])})"
+            f"bounds, {bounds}: the last was ({last})"
         )
 
 
@@ -124,20 +118,31 @@ def _of_time(world: World) -> Iterator[str]:
 
 
 def _of_props(world: World) -> Iterator[str]:
-    """Yield remarks on props that robots pushed, and that the floor held."""
-    record, robots = world.record, world.scenario.robots
+    """Yield remarks on props that robots pushed or pulled, and that something held."""
+    record, scenario = world.record, world.scenario
     a, b = record.contacts["a"], record.contacts["b"]
-    for k, prop in enumerate(world.scenario.props):
-        way = np.ptp(record.prop_pose[:, :2, k], axis=0).max()
-        pushing = [robots[int(i)] for i in np.unique(a[b == len(robots) + k]) if i < len(robots)]
+    for index, prop in enumerate(scenario.props, len(scenario.robots)):
+        way = np.ptp(record.prop_pose[:, :2, index - len(scenario.robots)], axis=0).max()
+        touching = np.unique(np.concatenate([a[b == index], b[a == index]]))
+        near = [scenario.body_name(int(body)) for body in touching]
+        pushes = {robot.name: f" with {robot.push:.3g} N" for robot in scenario.robots}
+        ends = [{joint.a, joint.b} for joint in scenario.joints]
+        joined = set(near).union(*(each for each in ends if prop.name in each))
+        pushing = [robot for robot in scenario.robots if robot.name in joined]
         held = prop.resting_friction * prop.inertia.mass * GRAVITY
         push = sum(robot.push for robot in pushing)
-        if pushing and way < STILL and push < held:
+        moved = "did not move" if way < STILL else f"moved {1000 * way:.0f} mm only"
+        if not pushing or way >= SHIFTED:
+            continue
+        if push < held:
             who = str(pushing[0].name) if len(pushing) == 1 else f"{len(pushing)} robots"
             yield (
-                f"{prop.name} did not move: the floor holds {held:.3g} N, and the drives of {who} "
+                f"{prop.name} {moved}: the floor holds {held:.3g} N, and the drives of {who} "
                 f"push {push:.3g} N; lower its ground_friction or mass, or raise their max_force"
             )
+        elif len(near) > 1:
+            *names, last = (f"{name}{pushes.get(name, '')}" for name in near)
+            yield f"{prop.name} {moved}: it is between {', '.join(names)} and {last}"
 
 
 def _of_end(world: World) -> Iterator[str]:
@@ -147,7 +152,8 @@ def _of_end(world: World) -> Iterator[str]:
         return
     for i in np.flatnonzero(outside_polygon(x, y, np.array(area))):
         robot = world.scenario.robots[int(i)]
-        ranging = [s.key for s in robot.sensors if any(q.kind == "distance" for q in s.quantities)]
+        kinds = {sensor.key: {q.kind for q in sensor.quantities} for sensor in robot.sensors}
+        ranging = [key for key, known in kinds.items() if known & {"distance", "flag"}]
         if ranging:
             yield (
                 f"{robot.name} left the workspace, whose edge its {ranging[0]} does not see: "
@@ -155,21 +161,9 @@ def _of_end(world: World) -> Iterator[str]:
             )
 
 
-def _like_degrees(value: float) -> bool:
-    """Return whether a number of radians is rather one of degrees, such as 45 or -180."""
-    return abs(value) >= 30 and value % 15 == 0
-
-
 def _meant(value: float) -> str:
     turns = abs(value) / (2 * pi)
     return f", {turns:.3g} turns; if degrees are meant, write np.radians({value:g})"
-
-
-def _bounds(robot: Robot) -> str:
-    """Return the bounds of a drive that are set, in words."""
-    found = ((name, getattr(robot.drive, name, None)) for name in BOUNDS)
-    told = [f"{name}={value:g}" for name, value in found if value is not None]
-    return f"{type(robot.drive).__name__}({', '.join(told)})"
 
 
 def _of_laws(laws: Iterable[Callable[..., Any]], robots: Sequence[Robot]) -> Iterator[str]:
@@ -184,9 +178,8 @@ def _of_laws(laws: Iterable[Callable[..., Any]], robots: Sequence[Robot]) -> Ite
         if all(quantity.kind == "flag" for quantity in sensor.quantities)
     }
     functions: dict[Any, None] = {}
-    for law in laws:
-        code, names = getattr(law, "__code__", None), getattr(law, "__globals__", {})
-        named = (names.get(name) for name in (code.co_names if code else ()))
+    for law in filter(None, map(written, laws)):
+        named = (law.__globals__.get(name) for name in law.__code__.co_names)
         functions |= dict.fromkeys([law, *(f for f in named if isinstance(f, FunctionType))])
     for function in functions:
         kept: dict[str, str] = {}  # what is read, by the variable that keeps it
@@ -207,7 +200,29 @@ def _of_laws(laws: Iterable[Callable[..., Any]], robots: Sequence[Robot]) -> Ite
                     )
 
 
-def _nodes(function: Callable[..., Any]) -> Iterator[tuple[str, ast.AST]]:
+def _of_rows(law: FunctionType | None, robots: int) -> Iterator[str]:
+    """Yield a remark on a law of as many robots as inputs that fills a row for each of them."""
+    filled: dict[str, str] = {}  # where lists and arrays get their rows, by their names
+    for place, node in _nodes(law):
+        into, row = "", None
+        if isinstance(node, ast.Call) and ast.unparse(node.func).endswith(".append"):
+            into, row = ast.unparse(node.func).removesuffix(".append"), node.args[0]
+        elif isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Subscript):
+            into = ast.unparse(node.targets[0].value)
+            row = node.value if isinstance(node.targets[0].slice, ast.Name) else None
+        elif isinstance(node, (ast.Return, ast.Yield)) and node.value is not None:
+            returned = RETURNED.fullmatch(ast.unparse(node.value))
+            if returned and returned[1] in filled:
+                yield (
+                    f"{filled[returned[1]]}: this is a row for each robot, and a command has a "
+                    f"column for each: with {robots} robots nothing else shows it; write "
+                    f"np.transpose({returned[1]}) where it is returned"
+                )
+        if isinstance(row, (ast.Tuple, ast.List)) and len(row.elts) == robots:
+            filled[into] = place
+
+
+def _nodes(function: Any) -> Iterator[tuple[str, ast.AST]]:
     """Yield the file and line, and the node, of all in a function whose source is known."""
     file = (definition(function) or "").partition(",")[0]
     try:

@@ -16,6 +16,7 @@ from mars2d.core.arithmetic import norms
 from mars2d.core.description import Check, Schema, accepts, real, wrong
 from mars2d.core.errors import InputError, shown
 from mars2d.core.plane import Outline, Point, is_clearly_convex
+from mars2d.core.usercode import definition
 
 MAX_ITEMS = 1_000_000
 """The longest list that a field may have; an iterator may have no end."""
@@ -125,6 +126,12 @@ def _check_ring(name: str, points: list[Point]) -> None:
         raise wrong(name, points, "a polygon with an area; its vertices lie on one line")
 
 
+@accepts(OUTLINE | {"minItems": 3})
+def polygon(name: str, value: object) -> Outline:
+    """Check a closed polygon of three or more vertices."""
+    return outline(name, value, 3)
+
+
 @accepts({"type": "array", "items": OUTLINE})
 def polylines(name: str, value: object) -> tuple[Outline, ...]:
     """Check a list of open lines, each of two or more vertices."""
@@ -229,7 +236,13 @@ def function(name: str, value: object, *arguments: str) -> object:
     words = " and ".join(arguments)
     if not callable(value):
         hint = "; write its name without brackets ()" if isinstance(value, RESULTS) else ""
+        hint = "; write its name without quotes" if isinstance(value, str) else hint
         raise wrong(name, value, f"a function of {count}, {words}{hint}")
+    if isinstance(value, type):
+        expected = f"an object of it, or a function of {count}, {words}"
+        raise InputError(
+            f"{name} = {value.__name__}: expected {expected}; write {value.__name__}(...)"
+        )
     try:
         given = inspect.signature(value)
     except ValueError:
@@ -240,7 +253,9 @@ def function(name: str, value: object, *arguments: str) -> object:
     except TypeError:
         raise InputError(f"{called}: expected a function of exactly {count}, {words}") from None
     if (meant := (words, next(iter(parameters)))) in _OTHERWISE:
-        raise InputError(f"{called}: {_OTHERWISE[meant]}")
+        error = InputError(f"{called}: {_OTHERWISE[meant]}")
+        error.where = definition(value) if words == "the world" else None
+        raise error
     return value
 
 

@@ -256,6 +256,9 @@ class Description:
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
+        if "__init__" in vars(cls):
+            instead = "its fields stand in the class, as `n: int = 3`, and are given by name"
+            raise InputError(f"{cls.__name__}.__init__ is not called: {instead}")
         _keep_checks(cls)
         dataclasses.dataclass(frozen=True, kw_only=True, repr=False)(cls)
         cls.__init__ = _gated(cls, cls.__init__)  # type: ignore[method-assign]
@@ -355,7 +358,8 @@ def _gated(cls: type, init: Callable[..., None]) -> Callable[..., None]:
                 if name not in known:
                     raise InputError(f"{cls.__name__} has no field {name!r}{cls.meant(name)}")
             if len(args) > len(positional):
-                example = f"{cls.__name__}({next(iter(known), 'field')}=...)"
+                first = next(iter([*required, *inspect.get_annotations(cls), *known]), "field")
+                example = f"{cls.__name__}({first}=...)"
                 raise InputError(f"{cls.__name__} takes its fields by name, as in {example}")
             given = {*positional[: len(args)], *kwargs}
             for name in required:

@@ -15,6 +15,9 @@ UNSEEN = re.compile(
 )
 """`CONTROLS`, and characters that reverse text; halves of characters; byte order marks."""
 
+ADDRESS = re.compile(r" at 0x[0-9a-f]+|_mars2d_experiment_\d+_\w+\.")
+"""What is in the texts of objects and says nothing: addresses, and the names of loaded files."""
+
 MAX_TEXT = 2000
 """The most characters of a text that are printed in one line."""
 
@@ -131,7 +134,7 @@ def one_line(text: object, most: int = MAX_TEXT) -> str:
 def shown(value: Any, limit: int = 60) -> str:
     """Return `value` as quoted in a message: its repr, cut to `limit` characters."""
     try:
-        text = " ".join(repr(value).split())
+        text = ADDRESS.sub("", " ".join(repr(value).split()))
     except Exception as error:  # such as a number of too many digits
         text = f"<{type(value).__name__}: {error}>"
     return text if len(text) <= limit else text[: limit - 3] + "..."

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 import builtins
-import inspect
 import linecache
 import sys
 import traceback
@@ -29,6 +28,9 @@ _FIXED: list[tuple[type[BaseException], str, str]] = [
      "it can't be set: a law returns its command, and keeps things in robot.memory"),
     (ValueError, "read-only",
      "a law can't change the world: it returns its command. Calculate with a copy: pose.copy()"),
+    (TypeError, "to Python scalars",
+     "it is an array: write np.cos in place of math.cos, and so on"),
+    (TypeError, "'builtin_function_or_method'", "it is called with brackets, as x.min()"),
     (EOFError, "",
      "nobody answers while a simulation runs: make it a parameter of scenario(...)"),
 ]  # fmt: skip
@@ -57,15 +59,20 @@ def described(error: BaseException) -> str:
     if isinstance(error, NameError):
         return text + _of_name(error)
     if isinstance(error, AttributeError):
-        return text + likely(error.name, {n for n in dir(error.obj) if not n.startswith("_")})
+        near = likely(error.name, {n for n in dir(error.obj) if not n.startswith("_")})
+        return text + (near or _of_values(error))
     if isinstance(error, ImportError):
         return text + _of_import(error)
     if isinstance(error, FileNotFoundError):
         beside = "a file beside this one is Path(__file__).with_name('NAME')"
         return f"{text}; relative names begin in the current folder, {Path.cwd()}; {beside}"
     if isinstance(error, (TypeError, ValueError, IndexError)):
-        return text + next(filter(None, (_of_value(error, *each) for each in _failed(error))), "")
+        return text + _of_values(error)
     return text
+
+
+def _of_values(error: BaseException) -> str:
+    return next(filter(None, (_of_value(error, *each) for each in _failed(error))), "")
 
 
 def _failed(error: BaseException) -> Iterator[tuple[ast.AST, ast.expr, Any]]:
@@ -76,12 +83,14 @@ def _failed(error: BaseException) -> Iterator[tuple[ast.AST, ast.expr, Any]]:
     """
     frames = [*traceback.walk_tb(error.__traceback__)]
     steps = traceback.extract_tb(error.__traceback__)
-    if not steps or steps[-1].lineno is None:
+    step = steps[-1] if steps else None
+    if step is None or step.lineno is None:
         return
-    line = linecache.getline(steps[-1].filename, steps[-1].lineno).encode()
-    start, end = steps[-1].colno or 0, steps[-1].end_colno
-    whole = "to unpack" in str(error) or steps[-1].end_lineno != steps[-1].lineno
-    code = (line if whole else line[start:end]).decode().strip().removeprefix("el")
+    lines = linecache.getlines(step.filename)[step.lineno - 1 : step.end_lineno] or [""]
+    if "to unpack" not in str(error):
+        lines[-1] = lines[-1].encode()[: step.end_colno].decode()
+        lines[0] = lines[0].encode()[step.colno or 0 :].decode()
+    code = " ".join(map(str.strip, lines)).removeprefix("el")
     with suppress(SyntaxError, ValueError):
         tree = ast.parse(code + " pass" if code.endswith(":") else code)
         for parent in ast.walk(tree):
@@ -102,24 +111,37 @@ def _of_value(error: BaseException, parent: ast.AST, node: ast.expr, value: Any)
     if "truth value" in said and isinstance(value, np.ndarray) and value.size != 1:
         if value.dtype.names:
             return f"; {what} has a row for each: write len({what}) > 0"
-        if isinstance(parent, ast.Compare) and isinstance(parent.ops[0], ast.Eq):
+        if isinstance(parent, ast.Compare) and isinstance(parent.ops[0], (ast.Eq, ast.NotEq)):
             sides = f"{ast.unparse(parent.left)}, {ast.unparse(parent.comparators[0])}"
             return f"; whether they are near says np.linalg.norm(np.subtract({sides})) < 0.01"
-        return f"; {what} has {size} numbers: compare one of them, as {what}[0] < 0.5"
-    if "unpack" in said and last in _PARTS:
+        if value.dtype == bool:
+            return f"; {what} has {size} of them: write any({what})"
+        least = f", or the least, min({what}) < 0.5" if np.ndim(value) == 1 else ""
+        return f"; {what} has {size} numbers: compare one of them, as {what}[0] < 0.5{least}"
+    parts = "broadcast" in said or isinstance(error, AttributeError)
+    if last in _PARTS and ("unpack" in said or (parts and np.ndim(value) == 1)):
         return f"; {_PARTS[last]}"
     if isinstance(error, IndexError) and isinstance(parent, ast.Subscript) and parent.value is node:
         if last in _PARTS and np.ndim(value) == 1:
             return f"; {_PARTS[last]}"
+        if isinstance(parent.slice, ast.Tuple):
+            ends = ", ".join(str(count - 1) for count in np.shape(value))
+            return f"; its shape is {np.shape(value)}: the last one is {what}[{ends}]"
         return f"; there are {what}[0] to {what}[{size - 1}]" if size else f"; {what} is empty"
+    if "indices must be" in said and size and hasattr(value[0], "name"):
+        names = ", ".join(f"{what}[{i}]: {each.name}" for i, each in enumerate(value[:4]))
+        return f"; they have numbers, not names: {names}"
     if not isinstance(parent, ast.Call) or parent.func is not node:
         return ""
     if "not callable" in said and last == "drive":
         return "; a law returns its command, such as `return v, omega`"
-    if "not callable" in said and isinstance(value, np.ndarray):
-        return "; it is an array: write it without the brackets ()"
-    first = next(iter(inspect.signature(value).parameters)) if inspect.isfunction(value) else ""
-    return f"; a law is given without brackets: {what}" if first in ("robot", "world") else ""
+    if "not callable" in said and value is not None:
+        return f"; write it without the brackets: {what}"
+    if "missing 1 required" not in said or _quoted(error) not in ("robot", "world"):
+        return ""
+    given = ", ".join(map(ast.unparse, (*parent.args, *parent.keywords)))
+    law = f"functools.partial({what}, {given})" if given else what
+    return f"; a law is given without brackets: {law}"
 
 
 def _of_name(error: NameError) -> str:

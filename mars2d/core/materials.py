@@ -140,9 +140,9 @@ def material(name: str, value: object) -> str | None:
 def _surface(quantity: str, high: float) -> Check:
     """Return the check of a surface's coefficient: a number up to `high`, or a material's name."""
     expected = f"a number >= 0 and <= {high:g}, or a material's name"
-    numeric = {"type": "number", "minimum": 0, "maximum": high}
+    numeric = {"type": ["number", "string"], "minimum": 0, "maximum": high}
 
-    @accepts({"anyOf": [numeric, {"enum": list(MATERIALS)}]})
+    @accepts(numeric | {"if": {"type": "string"}, "then": {"enum": list(MATERIALS)}})
     def check(name: str, value: object) -> float:
         if isinstance(value, str):
             if value not in MATERIALS:

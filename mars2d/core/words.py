@@ -32,7 +32,7 @@ _INSTEAD: dict[str, dict[str, str]] = {
         "sensor sensors": "Robot(sensors=[...])",
         "initialpose pose poses": "robots=[Robot(pose=p) for p in P.T], with P (3, n)",
         "nonholonomic drive": "Robot(drive=Holonomic()), or Robot(drive=Unicycle())",
-        "periodic wrap torus toroidal boundary": _TORUS,
+        "periodic wrap torus toroidal boundary boundaries periodicboundary": _TORUS,
         "colors colours basecolors": "animation=Animation(base_colors=[...])",
     },
     "Animation": {
@@ -40,7 +40,7 @@ _INSTEAD: dict[str, dict[str, str]] = {
         "color colour colors colours": "base_colors=[...]",
         "title": "Scenario(title=...)",
     },
-    "Scenario.on_exit": {"periodic wrap torus toroidal": _TORUS},
+    "Scenario.on_exit": {"periodic wrap wraparound torus toroidal": _TORUS},
     "Sensor": {
         "distance maxrange reach maxdistance": "range=...",
         "fov angle aperture opening": "field_of_view=...",
@@ -54,12 +54,20 @@ _INSTEAD: dict[str, dict[str, str]] = {
         "dt ts step": "robot.sampling_time",
         "goal target state integral error": "robot.memory: a law keeps things there",
         "stop move setvelocity setspeed setcommand forward turn rotate": _COMMAND,
+        "props obstacles workspace bounds addons robots iteration": "robot.world, which has them",
+    },
+    "a world": {
+        "x y theta heading": "x, y, theta = world.pose, each with a number for each robot",
+        "dt ts step": "world.sampling_time",
+        "sense sensors memory inbox send neighbours name": "world.robots[0], which has it",
+        "n numrobots": "len(world.robots)",
     },
     "a hook": {
-        "onend onfinish onfinished onclose ondone onexit": "on_stop(self, world)",
-        "oninit onbegin onreset onsetup oninitialize": "on_start(self, world)",
-        "onupdate onloop ontick": "on_step(self, world)",
-        "oncollision oncollide ontouch onhit": "on_contact(self, world, contact)",
+        "onend onfinish onfinished onclose ondone onexit stop end finish": "on_stop(self, world)",
+        "oninit onbegin onreset onsetup oninitialize start begin reset setup initialize":
+            "on_start(self, world)",
+        "onupdate onloop ontick step update loop tick": "on_step(self, world)",
+        "oncollision oncollide ontouch onhit contact collision": "on_contact(self, world, contact)",
         "onrender onplot onpaint": "on_draw(self, world, scene)",
     },
     "a room": {

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from mars2d.bodies.rigid import Rigid
 from mars2d.core.arithmetic import norm
 from mars2d.core.materials import GRAVITY
-from mars2d.record.contact import met
+from mars2d.record.contact import mean_forces, met
 from mars2d.scenario.scenario import Scenario
 
 if TYPE_CHECKING:
@@ -45,6 +45,9 @@ MORE, STILL = 1.01, 1e-3
 """How much faster bodies part than they should that have touched at two corners: as a factor, and
 in m/s."""
 
+TURNED = 0.1
+"""The share of a speed that may be missing since a normal is the mean of a control step's."""
+
 
 class _State(NamedTuple):
     """A body at an instant: the place and velocity of its centre of mass, and its spin."""
@@ -70,9 +73,14 @@ class _State(NamedTuple):
         """Return the state with more velocity (2,), m/s."""
         return self._replace(velocity=self.velocity + velocity)
 
-    def pushed(self, body: Rigid, impulses: Float, points: Float) -> _State:
-        """Return the state after impulses (k, 2) at points (k, 2)."""
-        arms = points - self.center
+    def pushed(self, body: Rigid, index: int, contacts: NDArray[np.void]) -> _State:
+        """Return the state of the body of this index after the impulses of its contacts."""
+        contacts = contacts[_of(contacts, index)]
+        signs = np.where(contacts["a"] == index, -1.0, 1.0)
+        impulses, arms = (
+            signs[:, None] * mean_forces(contacts, 1.0),
+            contacts["point"] - self.center,
+        )
         turned = float((arms[:, 0] * impulses[:, 1] - arms[:, 1] * impulses[:, 0]).sum())
         pushed = self.changed(impulses.sum(axis=0) / body.inertia.mass)
         return pushed._replace(spin=self.spin + turned / body.inertia.moment)
@@ -89,26 +97,28 @@ _FIXED = _State(0.0, np.zeros(2), np.zeros(2), 0.0)
 def impacts(record: Rows, row: int | None = None) -> NDArray[np.void]:
     """Return what each touch of two bodies did, a row (dtype IMPACT) each, in order of time.
 
-    row: of the record, for those in the control step that led to it alone; None: all of them.
+    row: of the record, for those in the control step that led to it alone; negative numbers count
+    from the end. None: all of them.
 
     `before` is at the touch: the velocity at the control step's start, less what the floor takes
     from a prop until then; the contact's speed and slip say how fast a robot came by its drive. A
     short touch that is over within its control step changes velocities by its impulses alone.
     Where bodies stay together, or bounce again in the same control step, which shows where they
     part faster than their restitution allows, `after` is at its end: drives and the floor have a
-    share in it.
+    share in it. Bodies that rest against each other from the start, without an impulse, have none.
+
+    Raises IndexError if the record has no such row.
     """
     contacts, ends, found = record.contacts, record.contact_rows, []
     if row is not None:
-        chosen = ends == row
-        contacts, ends = contacts[chosen], ends[chosen]
+        row = range(len(record))[row]
+        contacts, ends = contacts[ends == row], ends[ends == row]
     after: dict[int, tuple[int, _State]] = {}  # each body's last control step with a touch
-    for k in np.flatnonzero(met(contacts)):
+    for k in np.flatnonzero(met(contacts) & (contacts["speed"] + contacts["impulse"] > 0)):
         first, end = contacts[k], int(ends[k])
         if 0 < end < len(record):
-            rows = contacts[slice(*np.searchsorted(ends, [end, end + 1]))]
-            rows = rows[(rows["a"] == first["a"]) & (rows["b"] == first["b"])]
-            found.append(_impact(record, end - 1, rows, first, after))
+            step = contacts[slice(*np.searchsorted(ends, [end, end + 1]))]
+            found.append(_impact(record, end - 1, step, first, after))
     return np.array(found, dtype=IMPACT)
 
 
@@ -121,7 +131,7 @@ def card(scenario: Scenario, impact: np.void) -> list[tuple[str, str, str, str]]
     known = 2 if impact["b"] >= 0 else 1
 
     def number(value: float) -> str:
-        return f"{round(float(value), 9) + 0.0:.3g}"
+        return "-" if np.isnan(value) else f"{round(float(value), 9) + 0.0:.3g}"
 
     def each(name: str, column: int | None = None) -> list[str]:
         values = impact[name] if column is None else impact[name][:, column]
@@ -150,41 +160,49 @@ def card(scenario: Scenario, impact: np.void) -> list[tuple[str, str, str, str]]
 
 def _impact(
     record: Rows,
-    step: int,
-    rows: NDArray[np.void],
+    row: int,
+    step: NDArray[np.void],
     first: np.void,
     touched: dict[int, tuple[int, _State]],
 ) -> tuple[Any, ...]:
-    """Return one row. rows: of the pair in its control step. first: that with which it met."""
-    scenario, n = record.scenario_at(step), len(record.scenario.robots)
+    """Return one impact. step: the contacts from row on. first: that with which two bodies met."""
+    scenario, n = record.scenario_at(row), len(record.scenario.robots)
     sides, normal = [int(first["a"]), int(first["b"])], first["normal"]
     bodies = [scenario.bodies[i] if i >= 0 else None for i in sides]
     axes = np.array([normal, [-normal[1], normal[0]]])
-    before = []
+    before, unknown, slowed = [], [], []
     for i in sides:
         known, state = touched.get(i, (-1, _FIXED))
+        hit = _of(step, i) & (step["time"] < first["time"])
+        unknown.append(0 <= i < n or (i >= 0 and known != row and bool(hit.any())))
         if i >= 0:
-            state = state if known == step else _in_row(record, step, i)
+            state = state if known == row else _in_row(record, row, i)
             slowing = scenario.props[i - n].ground_friction * GRAVITY if i >= n else 0.0
             state = state.later(float(first["time"]), slowing)
+        slowed.append(i >= n and slowing > 0 and bool(state.velocity.any()))
         before.append(state)
-    _meet(before, [0 <= i < n for i in sides], first, axes)
-    tangents = np.column_stack([-rows["normal"][:, 1], rows["normal"][:, 0]])
-    impulses = rows["normal_impulse"][:, None] * rows["normal"]
-    impulses = impulses + rows["tangential_impulse"][:, None] * tangents
-    after = [
-        state.pushed(body, sign * impulses, rows["point"]) if body else _FIXED
-        for body, state, sign in zip(bodies, before, (-1.0, 1.0), strict=True)
-    ]
+    _meet(before, unknown if any(unknown) else slowed, first, axes)
+    rows = step[(step["a"] == first["a"]) & (step["b"] == first["b"])]
+    ends = step["time"] + step["duration"]
+    near = step[(step["time"] <= first["time"] + BRIEF) & (ends >= first["time"])]
+    near = near[(near["a"] >= n) | (near["duration"] <= BRIEF)]  # without what robots push
     most = MORE * scenario.restitution_between(*sides) * first["speed"] + STILL
-    if _parting(after, first) <= most and rows["ended"].all() and rows["duration"].max() <= BRIEF:
-        touched |= {i: (step, end) for i, end in zip(sides, after, strict=True)}
+    for pushing in (rows, near) if rows["duration"].max() <= BRIEF else ():
+        after = [
+            state.pushed(body, i, pushing) if body else _FIXED
+            for body, state, i in zip(bodies, before, sides, strict=True)
+        ]
+        parting = _parting(after, first)
+        if parting <= most:
+            touched |= {i: (row, end) for i, end in zip(sides, after, strict=True)}
+            break
     else:
         after = [
-            _in_row(record, step + 1, i)._replace(center=state.center) if i >= 0 else _FIXED
+            _in_row(record, row + 1, i)._replace(center=state.center) if i >= 0 else _FIXED
             for i, state in zip(sides, before, strict=True)
         ]
-    parting = max(0.0, _parting(after, first))
+        parting = _parting(after, first) if rows["ended"].all() else 0.0
+    restitution = max(0.0, parting) / first["speed"] if first["speed"] else np.nan
     mass = [body.inertia.mass if body else 0.0 for body in bodies]
     lost = [
         one.energy(body) - other.energy(body) if body else 0.0
@@ -194,10 +212,15 @@ def _impact(
         first["time"], *sides, normal,
         [axes @ state.velocity for state in before], [axes @ state.velocity for state in after],
         [state.spin for state in before], [state.spin for state in after],
-        axes @ impulses.sum(axis=0), parting / first["speed"] if first["speed"] else np.nan, lost,
+        axes @ mean_forces(rows, 1.0).sum(axis=0), restitution, lost,
         mass[0] * before[0].velocity + mass[1] * before[1].velocity,
         mass[0] * after[0].velocity + mass[1] * after[1].velocity,
     )  # fmt: skip
+
+
+def _of(contacts: NDArray[np.void], body: int) -> NDArray[np.bool_]:
+    """Return which of contacts (c,) are of a body."""
+    return np.asarray((contacts["a"] == body) | (contacts["b"] == body))
 
 
 def _parting(states: list[_State], first: np.void) -> float:
@@ -217,15 +240,17 @@ def _in_row(record: Rows, row: int, body: int) -> _State:
     return _State(float(record.time[row]), np.array([x + ahead, y + left]), velocity, float(spin))
 
 
-def _meet(before: list[_State], driven: list[bool], first: np.void, axes: Float) -> None:
+def _meet(before: list[_State], changed: list[bool], first: np.void, axes: Float) -> None:
     """Correct the velocities of two bodies, so that they approach and slip as the contact says.
 
-    What is missing is that of robots, which their drives have changed; else that of the faster one.
+    What is missing is that of the bodies that were `changed` since the row, by a drive, another
+    body or the floor; else that of the faster one, as by a joint, if it is more than rounding.
     """
     a, b = (state.at(first["point"]) for state in before)
     missing = axes.T @ (np.array([-first["speed"], first["slip"]]) - axes @ (b - a))
     speeds = [norm(*state.velocity) for state in before]
-    shares = driven if any(driven) else [speeds[0] >= speeds[1], speeds[1] > speeds[0]]
+    if not any(changed) and norm(*missing) > TURNED * norm(*(b - a)):
+        changed = [speeds[0] >= speeds[1], speeds[1] > speeds[0]]
     for side, sign in ((0, -1.0), (1, 1.0)):
-        if shares[side]:
-            before[side] = before[side].changed(sign / sum(shares) * missing)
+        if changed[side]:
+            before[side] = before[side].changed(sign / sum(changed) * missing)

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.arrays import sealed
-from mars2d.core.errors import InputError, counted, nearest
+from mars2d.core.errors import InputError, UnknownNameError, counted, nearest
 from mars2d.core.scene import Scene
 from mars2d.record.contact import CONTACT, met, pair_forces, rows_of
 from mars2d.record.energy import Energy, Momentum, energy_of, momentum_of
@@ -38,6 +38,9 @@ class _BySensor(dict[str, Any]):
     def __missing__(self, name: str) -> NoReturn:
         known = nearest(name, self, most=30) if self else "; none was recorded"
         raise InputError(f"the record has no sensor {name!r}{known}")
+
+    def __getattr__(self, name: str) -> NoReturn:
+        raise UnknownNameError(f"record.sensors.{name}: write record.sensors[{name!r}]")
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,6 +19,7 @@ from mars2d.core import checks
 from mars2d.core.errors import InputError, nearest, one_line
 from mars2d.core.files import note_file
 from mars2d.core.hints import described
+from mars2d.core.usercode import definition
 from mars2d.scenario.policy import SUFFIX, Policy
 
 _counter = itertools.count()
@@ -107,6 +108,6 @@ def law_in(
     try:
         checks.function(name, law, subject)
     except InputError as error:
-        error.where = file.name
+        error.where = definition(law) or file.name
         raise
     return cast("Callable[[Any], Any]", law)

@@ -138,7 +138,9 @@ def table(predictions: Sequence[Prediction]) -> str:
         shown = [cell.rjust(w) for cell, w in zip(row[:3], widths, strict=False)]
         shown += [row[3].ljust(widths[3]), row[4]]
         lines += [*above, "  ".join([last.ljust(first), *shown]).rstrip()]
-    return "\n".join([*lines, summary(predictions), *_reasons(predictions)])
+    reasons = dict.fromkeys(p.reason for p in predictions if p.reason)
+    wrapped = (textwrap.fill(f"not predicted: {each}", WIDTH) for each in reasons)
+    return "\n".join([*lines, summary(predictions), *wrapped])
 
 
 def summary(predictions: Sequence[Prediction]) -> str:
@@ -147,13 +149,6 @@ def summary(predictions: Sequence[Prediction]) -> str:
     silent, tested = found.count(None), len(found) - found.count(None)
     parts = [f"{found.count(True)} of {counted(tested, 'prediction')} ok"] if tested else []
     return ", ".join([*parts, f"{silent} not predicted"] if silent else parts)
-
-
-def _reasons(predictions: Sequence[Prediction]) -> list[str]:
-    """Return the reasons of silent predictions as lines, each reason once."""
-    reasons = dict.fromkeys(p.reason for p in predictions if p.reason)
-    wrapped = (textwrap.wrap(f"not predicted: {each}", WIDTH) for each in reasons)
-    return [line for lines in wrapped for line in lines]
 
 
 def cells(prediction: Prediction) -> tuple[str, str, str]:

@@ -56,7 +56,7 @@ class RandomStarts(Description):
         names="body",
     )
     area: Outline | None = entry(
-        default=None, check=checks.optional(checks.outline, 3), unit="m",
+        default=None, check=checks.optional(checks.polygon), unit="m",
         doc="the polygon in which their poses lie; None: the workspace",
     )  # fmt: skip
     least_distance: float = number(

@@ -6,18 +6,18 @@ from collections.abc import Sequence
 
 from mars2d.addons.contest import Contest
 from mars2d.core.errors import InputError, likely, nearest
-from mars2d.scenario.scenario import Scenario
+from mars2d.core.interfaces import ScenarioLike
 
 MOST_PEOPLE = 2
 """How many people one keyboard has keys for."""
 
 
-def contests_of(scenario: Scenario) -> list[Contest]:
+def contests_of(scenario: ScenarioLike) -> list[Contest]:
     """Return a scenario's contests: the add-ons that decide who has won."""
     return [addon for addon in scenario.addons if isinstance(addon, Contest)]
 
 
-def contest_of(scenario: Scenario, name: str) -> Contest:
+def contest_of(scenario: ScenarioLike, name: str) -> Contest:
     """Return a scenario's contest. Raises InputError if there is none, or several, or no outcome.
 
     name: the experiment's name in messages.
@@ -36,7 +36,7 @@ def contest_of(scenario: Scenario, name: str) -> Contest:
     return contests[0]
 
 
-def roles_of(scenario: Scenario) -> dict[str, tuple[int, ...]]:
+def roles_of(scenario: ScenarioLike) -> dict[str, tuple[int, ...]]:
     """Return the robots of each role of all contests, by index."""
     return {
         role: team
@@ -45,13 +45,13 @@ def roles_of(scenario: Scenario) -> dict[str, tuple[int, ...]]:
     }
 
 
-def role_of(scenario: Scenario, robot: int) -> str:
+def role_of(scenario: ScenarioLike, robot: int) -> str:
     """Return the role that a robot, by its index, plays; "" for none."""
     return next((role for role, team in roles_of(scenario).items() if robot in team), "")
 
 
 def robots_named(
-    scenario: Scenario, named: str | int | Sequence[str | int] | None, field: str
+    scenario: ScenarioLike, named: str | int | Sequence[str | int] | None, field: str
 ) -> tuple[int, ...]:
     """Return the robots, by index, that people drive: each by a name, an index, or a role.
 
@@ -74,7 +74,7 @@ def robots_named(
     return tuple(taken)
 
 
-def _named(scenario: Scenario, who: str | int, field: str) -> tuple[int, ...]:
+def _named(scenario: ScenarioLike, who: str | int, field: str) -> tuple[int, ...]:
     """Return the robots that a name, an index or a role stands for."""
     names, roles = [str(robot.name) for robot in scenario.robots], roles_of(scenario)
     if isinstance(who, str) and who in names:

@@ -95,7 +95,7 @@ class Scenario(Description):
     )  # fmt: skip
     workspace: Outline | None = entry(
         default=((-5.0, -5.0), (-5.0, 5.0), (5.0, 5.0), (5.0, -5.0)),
-        check=checks.optional(checks.outline, 3), unit="m",
+        check=checks.optional(checks.polygon), unit="m",
         doc="the polygon in which the robots move; None: no limits",
     )  # fmt: skip
     on_exit: str = choice(

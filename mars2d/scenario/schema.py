@@ -51,16 +51,20 @@ def _table(kind: type[Description]) -> Schema:
     """Return the schema of a part's table."""
     places = serialize.parts_of(kind)
     properties: dict[str, Schema] = {"type": {"const": kind.__name__}}
-    needed: list[str] = []
+    needed = _needed(kind)
     for field in dataclasses.fields(kind):
         found = _values(kind, field, places.get(field.name))
         about = ", ".join(filter(None, [field.metadata.get("doc"), field.metadata.get("unit")]))
         properties[field.name] = found | ({"description": about} if about else {})
-        given = (field.default, field.default_factory)
-        if given == (dataclasses.MISSING, dataclasses.MISSING):
-            needed.append(field.name)
     found = {"type": "object", "properties": properties, "additionalProperties": False}
     return found | ({"required": needed} if needed else {})
+
+
+def _needed(kind: type[Description]) -> list[str]:
+    """Return the fields of a part that have no default."""
+    missing = dataclasses.MISSING
+    fields = dataclasses.fields(kind)
+    return [each.name for each in fields if each.default is each.default_factory is missing]
 
 
 def _values(kind: type[Description], field: dataclasses.Field[Any], place: Place | None) -> Schema:
@@ -95,10 +99,11 @@ def _parts(place: Place, otherwise: Schema | None = None) -> Schema:
         }
         for name, kind in kinds.items()
     ]
+    alone: Schema = {"enum": [name for name, kind in kinds.items() if not _needed(kind)]}
     one: Schema = {
         "type": ["string", "object"],
         "if": {"type": "string"},
-        "then": {"anyOf": [named, otherwise]} if otherwise else named,
-        "else": table,
+        "then": {"anyOf": [alone, otherwise]} if otherwise else alone,
+        "else": {"if": {"type": "object"}, "then": table},
     }
     return {"type": "array", "items": one} if place.many else one

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from mars2d.addons.contest import Contest
 from mars2d.core.checks import items_of
 from mars2d.core.description import accepts, wrong
 from mars2d.core.errors import InputError, nearest
 from mars2d.core.interfaces import ScenarioLike
+from mars2d.scenario.roles import roles_of
 
 CONTACT = "contact"
 """Ends a run with the first touch of any two bodies, or of a body and an obstacle."""
@@ -17,7 +17,7 @@ WALL = "wall"
 Pairs = tuple[tuple[str, str], ...]
 
 _TEXT = {"type": "string"}
-_PAIR = {"type": "array", "items": _TEXT, "minItems": 2, "maxItems": 2}
+_PAIR = {"items": _TEXT, "minItems": 2, "maxItems": 2}
 
 
 @accepts(
@@ -25,7 +25,11 @@ _PAIR = {"type": "array", "items": _TEXT, "minItems": 2, "maxItems": 2}
         "type": ["string", "array"],
         "if": {"type": "string"},
         "then": {"enum": [CONTACT]},
-        "else": {"items": _PAIR, "minItems": 1},
+        "else": {
+            "if": {"items": _TEXT},
+            "then": _PAIR,
+            "else": {"items": {"type": "array", **_PAIR}},
+        },
     }
 )
 def stop_on(name: str, value: object) -> str | Pairs | None:
@@ -53,15 +57,19 @@ def bodies_named(
     """Return the bodies of each pair, by index, as contacts have them.
 
     bodies: all indices by name. obstacles: how many there are, -1, -2 and so on. Raises InputError
-    for a name that is neither of a body nor of a role, with the nearest.
+    for a name that is neither of a body nor of a role, with the nearest, and for a pair that can't
+    touch.
     """
     known = {WALL: frozenset(range(-obstacles, 0))}
-    for addon in scenario.addons:
-        if isinstance(addon, Contest):
-            teams = zip(addon.roles, addon.teams(scenario), strict=True)
-            known |= {role: frozenset(team) for (role, _), team in teams}
+    known |= {role: frozenset(team) for role, team in roles_of(scenario).items()}
     known |= {name: frozenset([body]) for name, body in bodies.items()}
     for name in {name for pair in pairs for name in pair}:
         if name not in known:
             raise InputError(f"Scenario.stop_on: nothing is called {name!r}{nearest(name, known)}")
+    for a, b in pairs:
+        if WALL in (a, b) and not obstacles:
+            why = "there is no wall; write on_exit='wall', or add a Map"
+            raise InputError(f"Scenario.stop_on = {(a, b)}: {why}")
+        if a == b and len(known[a]) < 2:
+            raise InputError(f"Scenario.stop_on = {(a, b)}: nothing touches itself")
     return tuple((known[a], known[b]) for a, b in pairs)

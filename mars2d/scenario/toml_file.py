@@ -197,7 +197,10 @@ def _parsed(path: Path, text: str) -> dict[str, Any]:
         message, _, place = str(error).partition(" (at ")
         number = re.match(r"line (\d+)", place)
         if number is None:
-            raise located(f"{path.name}, at its end" if place else path.name, message) from None
+            lines = enumerate(text.split("\n"), 1)
+            *_, last = 0, *(k for k, line in lines if line.count("[") > line.count("]"))
+            at_end = f"line {last}" if last else "at its end"
+            raise located(f"{path.name}, {at_end}" if place else path.name, message) from None
         before = text.split("\n")[: int(number[1])]
         line = before[-1].strip()
         hint = next((f"; {hint}" for code, hint in HINTS.items() if re.search(code, line)), "")
@@ -208,16 +211,23 @@ def _parsed(path: Path, text: str) -> dict[str, Any]:
 
 
 HINTS = {
-    r"^(//|%|;)": "a comment begins with #",
-    r"^\w+\s*:": "a field is NAME = VALUE",
+    r"(^|\s)//|^[%;]|/\*": "a comment begins with #",
+    r"^\w+\s*:|\{[^=}]*:": "a field is NAME = VALUE",
     r"=\s*\{[^}]*$": "a table in braces has one line; a longer one has a head, [robots.drive]",
-    r"=\s*[-+]?\d+,\d*$": "decimals have a point: 0.5",
+    r",\s*\}": "no comma stands before }",
+    r"^\[\w+\]$": "a list of tables has double brackets, [[robots]]",
+    r"[\u2018-\u201d]": "quotes are straight: 'red'",
+    r"=\s*(\"[^\"]*|'[^']*)$": "a text has a quote at both ends",
+    r"=\s*[-+]?\d+,\d+$": "decimals have a point: 0.5",
+    r"[,;]$": "nothing stands between lines",
     r"[=\[,]\s*[-+]?\.\d": "a digit stands before the point: 0.5",
-    r"=\s*\(": "a list has brackets: [1, 2]",
+    r"\d\.($|[\s,\]])": "a digit stands behind the point: 5.0",
+    r"=\s*(\(|[-+.\d]+\s*,|\{[-+.\d]|\[[-+.\d]+[\s;])": "a list has brackets and commas: [1, 2]",
     r"\b(True|False)\b": "TOML writes true and false",
     r"\b(null|None|nil)\b": "what is None is left out, or is 'none'",
-    r"\d\s*deg": "angles are in radians: 90 degrees are 1.5708",
-    r"\bpi\b|\d\s*[*/+]": "TOML does not calculate: pi is 3.14159265, and pi/2 is 1.57079633",
+    r"\d\s*(deg|\u00b0)": "angles are in radians: 90 degrees are 1.5708",
+    r"\d\s*[cm]?(m|s|kg|N)\b": "numbers have no units: they are in m, s, kg and N",
+    r"\bpi\b|\u03c0|\d\s*[*/+]": "TOML does not calculate: pi is 3.14159265, pi/2 is 1.57079633",
     r"=\s*[A-Za-z]": "text stands in quotes: 'red'",
 }
 """What to write, by what people write in files of this kind."""
@@ -285,7 +295,9 @@ class _Reader:
                     values[name] = self._field(kind, fields[name], item, _inside(at, name))
                 elif name != "type":
                     known = [*fields, *(HEADS if kind is Scenario else ["type"])]
-                    near = likely(name, known) or kind.meant(name)
+                    above = "; the fields of the scenario stand above the first table"
+                    above = above if name in Scenario.__dataclass_fields__ else ""
+                    near = likely(name, known) or above or kind.meant(name)
                     raise InputError(f"{kind.__name__} has no field {name!r}{near}")
         try:
             return kind(**values)
@@ -342,7 +354,10 @@ class _Reader:
     def _law(self, field: str, value: Any, subject: str) -> Law:
         reference = Reference.read(field, value)
         file = file_beside(Path(reference.file), self.path, "a law", [".py"])
-        return law_in(file, reference.name, subject)
+        try:
+            return law_in(file, reference.name, subject)
+        except InputError as error:  # its place there, and the line that names it
+            raise InputError(str(error)) from error
 
 
 def _kind(place: Place, name: object) -> type[Description]:
@@ -385,7 +400,7 @@ def _lines_of(text: str) -> dict[str, int]:
     r"""Return the line in which each table and each field begins, by their places.
 
     >>> _lines_of('format = 1\n[[robots]]\npose = [1, 2]\n[robots.drive]')
-    {'format': 1, 'robots[0]': 2, 'robots[0].pose': 3, 'robots[0].drive': 4}
+    {'format': 1, 'robots': 2, 'robots[0]': 2, 'robots[0].pose': 3, 'robots[0].drive': 4}
     """
     found: dict[str, int] = {}
     last: dict[str, int] = {}  # the index of the last table in each list
@@ -396,6 +411,7 @@ def _lines_of(text: str) -> dict[str, int]:
             table, names = "", re.split(r"\s*\.\s*", header[2])
             for name in names:
                 table = _inside(table, name)
+                found.setdefault(table, number)
                 if header[1] == "[[" and name is names[-1]:
                     last[table] = last.get(table, -1) + 1
                 table += f"[{last[table]}]" if table in last else ""

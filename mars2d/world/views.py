@@ -225,6 +225,10 @@ class RobotView(_Body):
         self._found: dict[int, Neighbour] = {}
         self._listed: tuple[Sequence[int], tuple[Neighbour, ...]] = ((), ())
 
+    def __getattr__(self, name: str) -> NoReturn:
+        read = vars(self.__dict__.get("sense", object))
+        unknown(self, self._kind, name, *self._more, *(f"sense.{key}" for key in read))
+
     @property
     def _robot(self) -> Robot:
         return self._world.scenario.robots[self._index]

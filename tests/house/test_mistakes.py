@@ -97,12 +97,18 @@ FILES = [
     ("scenario = Scenario(robots=2", "line 7: '(' was never closed"),
     ("def controll(world): return 0, 0", "must be called control: rename controll(world)"),
     ("def update(world): return 0, 0", "must be called control: rename update(world)"),
-    ("def control(robot): return 0, 0", "control(robot): it is called with the world"),
+    ("def control(robot): return 0, 0", "line 7: control = control(robot): it is called "),
     ("def go(world): return 0, 0\nred = Robot(controller=go)", "it is called with a robot"),
     ("def go(robot): return 0, 0\nred = Robot(controller=go())",
      "argument: 'robot'; a law is given without brackets: go"),
     ("def go(robot=0): return 0, 0\nred = Robot(controller=go())", "without brackets ()"),
+    ("def go(v, robot): return v, 0\nred = Robot(controller=go(1))", "functools.partial(go, 1)"),
+    ("def go(robot): return 0, 0\nred = Robot(controller='go')", "without quotes"),
+    ("class Go:\n    def __call__(self, robot): return 0, 0\nred = Robot(controller=Go)",
+     "write Go(...)"),
     ("class Lamps(Addon):\n    def on_end(self, world): pass", "write on_stop(self, world)"),
+    ("class Lamps(Addon):\n    def step(self, world): pass", "is never called; write on_step("),
+    ("class Lamps(Addon):\n    def __init__(self, n): pass", "is not called: its fields stand"),
     ("open('way.csv')", "relative names begin in the current folder, /"),
     ("def go(robot): return 0, 0", "give go(robot) to a robot: Robot(controller=go)"),
 ]  # fmt: skip
@@ -120,7 +126,12 @@ LAWS = [
     ("return robot.position[2], 0", "a position is (x, y); the angle is pose[2]"),
     ("return robot.pose[3], 0", "or pose[0] to pose[2]"),
     ("x, y = robot.pose\nreturn x, y", "a pose is three numbers: x, y, theta = robot.pose"),
-    ("return robot.pose(), 0", "it is an array: write it without the brackets ()"),
+    ("return robot.pose(), 0", "write it without the brackets: robot.pose"),
+    ("return robot.pose.x, 0", "a pose is three numbers: x, y, theta = robot.pose"),
+    ("return robot.proximity, 0", "did you mean 'sense.proximity'?"),
+    ("return robot.props, 0", "write robot.world, which has them"),
+    ("import math\nreturn math.sin(robot.pose), 0", "write np.cos in place of math.cos"),
+    ("return robot.pose.min < 0, 0", "it is called with brackets"),
     ("return robot.speed, 0", "write robot.velocity: x', y' [m/s], theta' [rad/s]"),
     ("return robot.sense('proximity'), 0", "write robot.sense.proximity"),
     ("return robot.sense['proximity'], 0", "write robot.sense.proximity"),
@@ -132,9 +143,13 @@ LAWS = [
      "np.linalg.norm(np.subtract(robot.pose[:2], (2, 0))) < 0.01"),
     ("return robot.world.robots[2].pose[0], 0",
      "there are robot.world.robots[0] to robot.world.robots[0]"),
+    ("return (robot.world\n    .robots[3]\n    .pose[0]), 0", "to robot.world.robots[0]"),
+    ("return robot.world.pose[0, 5], 0", "the last one is robot.world.pose[2, 0]"),
+    ("return robot.world.robots['red'].pose[0], 0", "robot.world.robots[0]: red"),
+    ("if robot.pose != (2, 0, 0): return 0, 0\nreturn 1, 0", "np.subtract(robot.pose, (2, 0, 0))"),
     ("return robot.neighbours[0].pose[0], 0", "robot.neighbours is empty"),
     ("return 0.2, 90 - robot.pose[2]", "if degrees are meant, write np.radians(88.5)"),
-    ("return 3 - robot.pose[0], 2 - robot.pose[1]", "they mean v [m/s] and omega [rad/s]"),
+    ("return 3 - robot.pose[0], 2 - robot.pose[1]", "v [m/s] from -0.5 to 0.5 and omega"),
     ("if robot.sense.proximity < 0.5: return 0, 0\nreturn 1, 0",
      "line 9: robot.sense.proximity is True or False, and is compared with a number"),
     ("near = robot.sense.proximity\nif near > 1: return 0, 0\nreturn 1, 0",
@@ -161,7 +176,22 @@ FILES_OF_SCENARIOS = [
     ("pose = [0, 0, pi/2]", "line 4, robots[1]", "pi/2 is 1.57079633"),
     ("diameter = 2*0.15", "line 4, robots[1]", "TOML does not calculate"),
     ("pose = [0, 0, 90 deg]", "line 4, robots[1]", "90 degrees are 1.5708"),
-    ("pose = (0, 0, 0)", "line 4, robots[1]", "a list has brackets: [1, 2]"),
+    ("pose = [0, 0, 90\u00b0]", "line 4, robots[1]", "90 degrees are 1.5708"),
+    ("pose = (0, 0, 0)", "line 4, robots[1]", "a list has brackets and commas: [1, 2]"),
+    ("pose = 0, 0, 0", "line 4, robots[1]", "a list has brackets and commas: [1, 2]"),
+    ("pose = [0 0 0]", "line 4, robots[1]", "a list has brackets and commas: [1, 2]"),
+    ("pose = [0, 0,\n 1", "line 4", "Unclosed array"),
+    ("diameter = 0.3 m", "line 4, robots[1]", "numbers have no units"),
+    ("diameter = 5.", "line 4, robots[1]", "a digit stands behind the point: 5.0"),
+    ("diameter = 0.3;", "line 4, robots[1]", "nothing stands between lines"),
+    ("color = \u201cred\u201d", "line 4, robots[1]", "quotes are straight: 'red'"),
+    ('color = "red', "line 4, robots[1]", "a text has a quote at both ends"),
+    ("drive = { type: 'Car' }", "line 4, robots[1]", "a field is NAME = VALUE"),
+    ("drive = { type = 'Car', }", "line 4, robots[1]", "no comma stands before }"),
+    ("[robots]", "line 4, robots[1]", "a list of tables has double brackets, [[robots]]"),
+    ("[[robot]]", "line 4", "did you mean 'robots'?"),
+    ("stop_time = 3", "line 4, robots[1]", "fields of the scenario stand above the first table"),
+    ("controller = 'law.py:wolk'", "line 4, robots[1]", "law.py: has no law 'wolk'; did you mean"),
     ("color = null", "line 4, robots[1]", "what is None is left out, or is 'none'"),
     ("color = red", "line 4, robots[1]", "text stands in quotes: 'red'"),
     ("color: 'red'", "line 4, robots[1]", "a field is NAME = VALUE"),
@@ -179,6 +209,7 @@ TEAMS = [
     ("return 1, 0", "expected two rows and a column for each robot, shape (2, 3)"),
     ("world.pose[0] = 1", "a law can't change the world"),
     ("return world.robot[0]", "did you mean 'robots'?"),
+    ("return world.sense", "write world.robots[0], which has it"),
     ("integral += 1", "a function that assigns 'integral' has its own"),
 ]
 """Bodies of a team's law."""
@@ -280,10 +311,19 @@ def test_two_robots_commands_are_not_taken_for_rows(answer):
     for pairs in ("[(0.2, 0.1), (0.2, 0.1)]", "(0.2, 0.1), (0.2, 0.1)"):
         told = answer(f"{HEAD}scenario = Scenario(robots=2)\ndef control(world): return {pairs}\n")
         helps(told, "is each tuple a robot's command? Then write np.transpose(...) of them")
+    rows = "    rows = []\n    for robot in world.robots: rows.append([0.3, 0.1])\n    return rows"
+    items = rows.replace("[]", "np.zeros((2, 2))").replace("rows.append([0.3, 0.1])", "pass")
+    items += "\n    for i in range(2):\n        rows[i] = 0.3, 0.1\n    return np.array(rows)"
+    for body, line in ((rows, 10), (items, 13), (rows + ".T", 0), (items[:-5] + "rows.T)", 0)):
+        law = f"class Team:\n  def __call__(self, world):\n{body}\ncontrol = Team()\n"
+        told = answer(f"{HEAD}{law}scenario = Scenario(robots=2, stop_time=0.3)\n")
+        assert ("this is a row for each robot" in told) is (line > 0), told
+        assert not line or f"walk.py, line {line}: " in told
 
 
 @each_case("lines, place, words", FILES_OF_SCENARIOS)
 def test_a_scenario_file(answer, lines, place, words):
+    Path("law.py").write_text("def walk(robot): return 0, 0\n")
     Path("room.toml").write_text(f"format = 1\n[[robots]]\n[[robots]]\n{lines}\n")
     told = answer("", "run", "room.toml", "--headless")
     helps(told, words)
@@ -295,6 +335,7 @@ def test_a_scenario_file(answer, lines, place, words):
     [
         (lambda record: record.sensors["sonar"], "the record has no sensor 'sonar'; known: front"),
         (lambda record: record.sensors["frnt"], "did you mean 'front'?"),
+        (lambda record: record.sensors.front, "write record.sensors['front']"),
         (lambda record: record.sensor_robots["sonar"], "the record has no sensor 'sonar'"),
         (lambda record: record.plot_signals(["x", "spee"]), "did you mean 'speed'?"),
         (lambda record: mars2d.load("way.npz"), "there is no such file in the current folder, /"),

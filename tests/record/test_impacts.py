@@ -102,8 +102,51 @@ def test_blows_that_follow_each_other_in_one_control_step_are_told_apart():
         assert (first["a"], first["b"], second["b"]) == (1, 2, 3)
 
 
+def test_a_blow_at_the_end_of_a_control_step_is_the_same_as_within_it():
+    red = Robot(pose=(0, 0, 0.3), controller=lambda robot: (0.5, 0), restitution=0.7, friction=0.3)
+    for step in (0.1, 0.02, 0.005):
+        found = record_of(step, robots=[red], addons=[WALL]).impacts()[0]
+        speed = 0.5 * np.cos(0.3)
+        assert found["before"][0, 0] == pytest.approx(speed, abs=1e-6)
+        assert found["after"][0, 0] == pytest.approx(-0.7 * speed, abs=1e-6)
+        assert found["restitution"] == pytest.approx(0.7, abs=1e-6)
+
+
+def test_a_body_between_two_others_keeps_the_velocity_that_the_first_gave_it():
+    look = {"diameter": 0.2, "restitution": 0.5}
+    balls = [
+        Ball(pose=(-0.5, 0, 0), velocity=(1, 0, 0), **look), Ball(**look),
+        Ball(pose=(0.52, 0, 0), velocity=(-1, 0, 0), **look),
+    ]  # fmt: skip
+    for step in STEPS:
+        first, second, *_ = record_of(step, balls).impacts()
+        assert first["before"][:, 0] == pytest.approx([1, 0], abs=1e-9)
+        assert second["before"][:, 0] == pytest.approx([0.625, -1], abs=1e-9)
+        assert 0 < second["lost"].sum() < 0.9
+
+
+def test_a_ball_bounces_off_another_that_rests_at_a_wall():
+    look = {"diameter": 0.2, "restitution": 1.0}
+    balls = [Ball(pose=(0.1, 0, 0), velocity=(1, 0, 0), **look), Ball(pose=(0.9, 0, 0), **look)]
+    for step in STEPS:
+        (found,) = record_of(step, balls, addons=[WALL]).impacts()  # none of the ball and the wall
+        assert found["after"] == pytest.approx(np.array([[-1, 0], [0, 0]]), abs=1e-3)
+        assert found["restitution"] == pytest.approx(1, abs=1e-3)
+
+
+def test_two_blows_that_are_one_row_add_no_momentum():
+    box = Box(length=0.3, width=0.3, restitution=sqrt(0.5), friction=0, ground_friction=0)
+    moving = box.replace(pose=(-0.6, 0, 0.3), velocity=(1, 0, 0), mass=1.0)
+    for step in STEPS:
+        record = record_of(step, [moving, box.replace(pose=(0.3, 0, 0), length=0.4, width=0.8)])
+        for found in record.impacts():
+            assert found["momentum_after"] == pytest.approx(found["momentum_before"], abs=1e-9)
+
+
 def test_a_record_without_touches_has_none():
     assert len(record_of(0.1).impacts()) == 0
+    with pytest.raises(IndexError):
+        record_of(0.1).impacts(99)
     with pytest.raises(InputError, match="the record has no impacts: nothing came to touch"):
         record_of(0.1).plot_impacts()
 

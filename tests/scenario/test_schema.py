@@ -115,6 +115,11 @@ def test_every_field_says_what_it_accepts_but_for_code():
         ('title = "two\\nlines"', "title"),
         ("control = 'team'", "control"),
         ("robots = 0", "robots"),
+        ("[[robots]]\ndrive = 3", "robots[0].drive"),
+        ("[[robots]]\nshape = 'Disc'", "robots[0].shape"),
+        ("[[props]]\ntype = 'Ball'\nfriction = 'ruber'", "props[0].friction"),
+        ("workspace = [[0, 0], [1, 1]]", "workspace"),
+        ("stop_on = ['robot0']", "stop_on"),
     ],
 )
 def test_gate_and_schema_refuse_the_same_and_an_editor_marks_the_one_value(text, place, tmp_path):
@@ -124,6 +129,13 @@ def test_gate_and_schema_refuse_the_same_and_an_editor_marks_the_one_value(text,
         read(path)
     found = CHECKER.iter_errors(tomllib.loads(path.read_text()))
     assert [error.json_path for error in found] == [f"$.{place}"]
+
+
+def test_one_pair_of_bodies_stands_alone_in_a_file(tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_text("format = 1\nrobots = 2\nstop_on = ['robot0', 'robot1']\n")
+    assert read(path)[0].stop_on == (("robot0", "robot1"),)
+    assert faults(path.read_text()) == []
 
 
 def test_the_command_prints_it_or_writes_it(tmp_path, capsys):

@@ -214,7 +214,10 @@ WRONG = [
     ("\nx = " + "[" * 9999, "scene.toml: brackets stand in each other too deeply"),
     ("\ntitle = 'x", "scene.toml, at its end: Expected"),
     ("\ngrid = True", "line 2: Invalid value: grid = True; TOML writes true and false"),
-    ("\npose = (1, 2)", "line 2: Invalid value: pose = (1, 2); a list has brackets: [1, 2]"),
+    (
+        "\npose = (1, 2)",
+        "line 2: Invalid value: pose = (1, 2); a list has brackets and commas: [1, 2]",
+    ),
     ("\ntitle = 'a'\ntitle = 'b'", "scene.toml, line 3: Cannot overwrite a value: title = 'b'"),
     ("\ntitel = 'x'", "line 2: Scenario has no field 'titel'; did you mean 'title'?"),
     ("\ncontroll = 'x'", "did you mean 'control'?"),

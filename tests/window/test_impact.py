@@ -5,19 +5,26 @@ import pygame
 import mars2d
 from mars2d import Robot, Scenario
 from mars2d.bodies import Ball
+from mars2d.scenario.experiment import Experiment
 from mars2d.window.run.window import Window
 from mars2d.window.screen.source import Playback
+from mars2d.world.timeline import Timeline
+from tests.cases import each_case
 from tests.window.states import Preferences
 
 
-def test_the_keys_of_contacts_open_the_card_of_what_the_touch_did():
+@each_case("live", [False, True])
+def test_the_keys_of_contacts_open_the_card_of_what_the_touch_did(live):
     balls = [Ball(name="a", velocity=(1, 0, 0)), Ball(name="b", pose=(0.5, 0, 0), mass=3.0)]
     scenario = Scenario(robots=[Robot(pose=(0, 3, 0))], props=balls, stop_time=1)
-    window = Window(Playback(mars2d.run(scenario)), 1.0, (900, 700), Preferences())
+    source = Timeline(Experiment(scenario)) if live else Playback(mars2d.run(scenario))
+    window = Window(source, 0.0 if live else 1.0, (900, 700), Preferences())
     surface = pygame.Surface((900, 700))
     window.draw(surface)
     assert not window.dock.impact.is_open
     window._actions["contact"]()
+    while window.player.busy:
+        window.player.pass_time(0.1)
     assert window.dock.impact.is_open
     window.draw(surface)
     assert "impact" in window.dock.plates

@@ -169,7 +169,7 @@ def test_a_law_may_have_another_name_and_import_what_lies_beside_it(duel):
     [
         ("def contrl(robot):\n    pass\n", "red.py", "no law 'control'; did you mean 'contrl'?"),
         ("x = 1\n", "red.py", "has no law 'control'"),
-        ("def control():\n    pass\n", "red.py", "exactly one argument, the robot"),
+        ("def control():\n    pass\n", "red.py, line 1", "exactly one argument, the robot"),
         ("x = 1\nimport nmpy\n", "red.py, line 2", "ModuleNotFoundError"),
         ("def control(robot):\n    return robot.posee\n", "red.py, line 2", "'posee'"),
         ("def control(robot):\n    pass\n", "red.py, line 1", "control returned nothing"),

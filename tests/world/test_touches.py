@@ -94,6 +94,8 @@ def test_roles_and_walls_are_known_by_their_names():
         ("contacts", "expected 'contact', or pairs of names"),
         ([("red",)], "expected 'contact', or pairs of names"),
         (("red", "blu"), "Scenario.stop_on: nothing is called 'blu'; did you mean 'blue'?"),
+        (("red", "wall"), "there is no wall; write on_exit='wall', or add a Map"),
+        (("red", "red"), "nothing touches itself"),
     ],
 )
 def test_what_ends_no_run_is_refused(value, message):

@@ -6,6 +6,7 @@ import argparse
 import inspect
 import json
 import time
+from collections import deque
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -25,7 +26,7 @@ from mars2d.scenario.roles import robots_named
 from mars2d.window import show
 from mars2d.world.loop import Interrupted
 from mars2d.world.record import Record
-from mars2d.world.world import Watcher
+from mars2d.world.world import Watcher, World
 
 FOXGLOVE = 8765
 """The port at which Foxglove looks for a server."""
@@ -51,11 +52,11 @@ def execute(arguments: argparse.Namespace) -> None:
     humans = _check(arguments, experiment)
     for remark in remarks.before(experiment):
         warn(remark)
-    watched, start = remarks.Run(), time.perf_counter()
+    watched, start = deque[World](maxlen=1), time.perf_counter()
     try:
         with _live(arguments.foxglove) as live:
             drawings = Drawings()
-            watchers: list[Watcher] = [watched, *live, *[drawings] * bool(arguments.video)]
+            watchers: list[Watcher] = [watched.append, *live, *[drawings] * bool(arguments.video)]
 
             def run() -> Record:
                 if not opens_window(not arguments.headless):
@@ -94,7 +95,7 @@ def execute(arguments: argparse.Namespace) -> None:
         if predictions:
             title = [experiment.source.summary] if experiment.source.summary else []
             tell("", *title, table(predictions), sep="\n")
-        for remark in watched.remarks():
+        for remark in (remark for world in watched for remark in remarks.after(world)):
             tell(f"note: {remark}")
     conclude({} if arguments.json else made, troubles)
 

@@ -57,8 +57,8 @@ class FollowWaypoints(Paced):
 
     def want(self, scenario: ScenarioLike, index: int) -> str:
         """Return what a robot lacks to be moved by this law: waypoints."""
-        ways = next((addon for addon in scenario.addons if addon.key == "waypoints"), None)
-        routes = () if ways is None else ways.routes
+        ways = (addon for addon in scenario.addons if addon.key == "waypoints")
+        routes = getattr(next(ways, None), "routes", ())
         return "" if index < len(routes) and len(routes[index]) else "a waypoint"
 
 

@@ -8,6 +8,7 @@ from mars2d.output.raster.painter import Painter
 from mars2d.record.contact import met
 from mars2d.record.frame import Frame
 from mars2d.record.impacts import card
+from mars2d.window.panels.trace import with_present
 from mars2d.window.screen.player import Player
 from mars2d.window.widgets.panel import LINE, Panel
 from mars2d.window.widgets.rows import Row, Word, height_of, minus
@@ -50,13 +51,15 @@ class Impact(Panel):
         theme = self.painter.theme
         ink = theme.text if label else theme.ink
         words = [Word(minus(each), ink, bold=not label) for each in numbers]
-        return self.table(words, ENDS, [Word(label, theme.muted)])
+        first = 0 if any(numbers[:2]) else 2  # the numbers of both have the line to themselves
+        return self.table(words[first:], ENDS[first:], [Word(label, theme.muted)])
 
     def _cards(self, frame: Frame) -> list[Table]:
         """Return the tables of the touches that began in the control step before a frame."""
         if not met(frame.contacts).any():
             return []
         if self._read[0] != frame.time:
-            found = self._player.source.recorded.impacts(frame.iteration)
+            record = with_present(self._player.source.recorded, frame)
+            found = record.impacts(frame.iteration)
             self._read = frame.time, [card(frame.scenario, impact) for impact in found]
         return self._read[1]

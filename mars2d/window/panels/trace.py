@@ -52,7 +52,7 @@ class Trace:
         try:
             if not isinstance(self.what, str):
                 return _own(self.name, self.what, record) if len(record) else []
-            whole = _with_present(record, frame)
+            whole = with_present(record, frame)
             found = signals_of_bodies(whole, self.what, self.bodies) if len(whole) else []
             return [_flat(each) for each in found]
         except Mars2dError as error:
@@ -60,7 +60,7 @@ class Trace:
             return []
 
 
-def _with_present(record: Record, frame: Frame) -> Record:
+def with_present(record: Record, frame: Frame) -> Record:
     """Return a record with the row of a frame behind it, if it is the one that comes next.
 
     What is not known of it yet, such as the command, is as in the row before.

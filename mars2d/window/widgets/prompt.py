@@ -28,12 +28,11 @@ class Answer(NamedTuple):
 class Prompt:
     """A question over which nothing else can be done.
 
-    answers: that of Enter first. field: to type in, if there is one. doc: says more about it.
-    fault: an error, and the text that it is about.
+    field: to type in, if there is one. doc: says more about it. fault: an error, and the text that
+    it is about.
     """
 
     label: str
-    answers: Sequence[Answer]
     field: TextField | None
     doc: str
     fault: tuple[str, str] = "", ""
@@ -76,30 +75,26 @@ class Prompts:
         field = None if text is None else TextField(text, opened_by_key=True)
         if field is not None:
             field.select_all()
-        self._show(Prompt(label, [*answers, Answer(escape, key="Esc")], field, doc))
+        self._show(Prompt(label, field, doc), [*answers, Answer(escape, key="Esc")])
 
-    def _show(self, prompt: Prompt) -> None:
+    def _show(self, prompt: Prompt, answers: Sequence[Answer]) -> None:
         self.prompt = prompt
-        self._menu.open("prompt", partial(self._entries, prompt), (0, 0), asks=True)
 
-    def _entries(self, prompt: Prompt) -> list[Entry]:
-        words, tone = prompt.error or prompt.doc, "warning" if prompt.error else "note"
-        told = [Entry(words, tone=tone)] if words else []
-        ways = (
-            Entry(
-                each.words,
-                partial(self._answer, prompt, each),
-                each.key,
-                value="" if each.key else "Enter",
-            )
-            for each in prompt.answers
-        )
-        return [Entry(prompt.label, field=prompt.field), *told, *ways]
+        def answer(chosen: Answer) -> None:
+            self.prompt = None
+            try:
+                chosen.act(prompt.text)
+            except Mars2dError as error:
+                prompt.fault = str(error), prompt.text
+                self._show(prompt, answers)
 
-    def _answer(self, prompt: Prompt, answer: Answer) -> None:
-        self.prompt = None
-        try:
-            answer.act(prompt.text)
-        except Mars2dError as error:
-            prompt.fault = str(error), prompt.text
-            self._show(prompt)
+        def entries() -> list[Entry]:
+            words, tone = prompt.error or prompt.doc, "warning" if prompt.error else "note"
+            told = [Entry(words, tone=tone)] if words else []
+            ways = [
+                Entry(each.words, partial(answer, each), each.key, value="Enter" * (not each.key))
+                for each in answers
+            ]
+            return [Entry(prompt.label, field=prompt.field), *told, *ways]
+
+        self._menu.open("prompt", entries, (0, 0), asks=True)
