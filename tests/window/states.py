@@ -225,7 +225,6 @@ def of_editor(editor):
         "typed": None if prompt is None or prompt.field is None else prompt.text,
         "answers": {} if prompt is None else menu,
         "error": None if prompt is None else prompt.error,
-        "help": editor.help.is_open,
         "laws": [law_of(robot) for robot in draft.base.robots],
         "drives": [repr(robot.drive) for robot in draft.base.robots],
         "members": [[b.mass, b.friction, b.color] for b in (*draft.base.robots, *draft.base.props)],

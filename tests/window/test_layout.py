@@ -9,7 +9,7 @@ from mars2d.bodies.props import Box
 from mars2d.output.figures.comparison import MODES
 from mars2d.output.raster.layout import TEXT_SIZES
 from mars2d.output.raster.painter import Painter
-from mars2d.scenario.controllers import FollowWall
+from mars2d.scenario.controllers import FollowWall, FollowWaypoints
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
@@ -30,7 +30,7 @@ SIZES = [(640, 400), (800, 600), (1280, 720), (1920, 1080)]
 SCENARIO = Scenario(
     robots=[
         Robot(pose=(-3, -2, 0), controller=FollowWall(), sensors=FollowWall.needs),
-        Robot(pose=(3, 2, 0)),
+        Robot(pose=(3, 2, 0), controller=FollowWaypoints()),
     ],
     props=[Box(pose=(0, 2, 0.4), length=1.2, width=0.6)],
     joints=[Rope(a="robot0", b="box0", length=6)],
@@ -60,13 +60,15 @@ def editor_of(text):
 def faults_of_editor(size, text):
     """Yield what is wrong with the editor's layout."""
     editor, picture = editor_of(text), pygame.Rect(0, 0, *size)
-    for selection in ([], [Item("robot", 0)], [Item("prop", 0)]):
+    for selection in ([], [Item("robot", 0)], [Item("robot", 1)], [Item("prop", 0)]):
         editor.desk.select(selection)
         surface = Written(size)
         editor.draw(surface)
         plot = editor.layout.plot  # the arena has words of its own
         surface.words = [(word, at) for word, at in surface.words if not plot.contains(at)]
         yield from (*surface.crowded(), *surface.cut())
+        panel = [word for word, at in surface.words if at.left > plot.right and size[0] >= 1280]
+        yield from (word for word in panel if word.endswith("…"))
     if plot.width * plot.height < LEAST * size[0] * size[1]:
         yield f"the arena has {plot.width * plot.height / size[0] / size[1]:.2f} of the picture"
     buttons = [*editor._toolbar.places.items(), *editor._header.places.items()]

@@ -202,7 +202,7 @@ class Properties:
         rows = [self._part("Law", _alike(titles), laws, self._laws(robots))]
         wants = [idle[item.number] for item in robots if item.number in idle]
         if wants:
-            rows.append(Entry(f"stands still, lacks {wants[0]}", level=1, tone="warning"))
+            rows.append(Entry(f"lacks {wants[0]}", level=1, tone="warning"))
         title = _alike([type(drive).__name__ for drive in drives.parts])
         give = lambda kind: drives.change(partial(_driven, kind))  # noqa: E731
         rows.append(
@@ -213,8 +213,8 @@ class Properties:
         first, *others = whole.parts
         for sensor in first.sensors:
             if all(robot.sensor(sensor.key) for robot in others):
-                subject = self._sensors(robots, sensor.key)
-                rows.append(self._part(sensor.key, type(sensor).__name__, subject))
+                kind = type(sensor).__name__ * (sensor.name is not None)
+                rows.append(self._part(sensor.key, kind, self._sensors(robots, sensor.key)))
         return rows
 
     def _rows_of_joints(self, bodies: Items) -> list[Entry]:
