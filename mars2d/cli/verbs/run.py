@@ -64,8 +64,9 @@ def execute(arguments: argparse.Namespace) -> None:
                 speed, own = arguments.speed, experiment.scenario.animation.playback_speed
                 if speed is None:
                     speed = 1.0 if humans else own
-                if not arguments.json:
-                    _tell_lesson(experiment.source.path)
+                for heading, text in () if arguments.json else lesson_of(experiment.source.path):
+                    if heading in ("Question", "Prediction", "Try"):  # the window shows it all
+                        tell(f"{heading}: {text}")
                 look, log = preferences_of(arguments), formats.log_to(arguments.record)
                 asks = arguments.record is None
                 return show.show_experiment(
@@ -93,18 +94,10 @@ def execute(arguments: argparse.Namespace) -> None:
         tell(json.dumps(found, allow_nan=False))
     else:
         if predictions:
-            title = [experiment.source.summary] if experiment.source.summary else []
-            tell("", *title, table(predictions), sep="\n")
+            tell("", *filter(None, [experiment.source.summary, table(predictions)]), sep="\n")
         for remark in (remark for world in watched for remark in remarks.after(world)):
             tell(f"note: {remark}")
     conclude({} if arguments.json else made, troubles)
-
-
-def _tell_lesson(path: Path | None) -> None:
-    """Print what an experiment asks, predicts and suggests, beside the window that shows it all."""
-    parts = [part for part in lesson_of(path) if part[0] in ("Question", "Prediction", "Try")]
-    for heading, text in parts:
-        tell(f"{heading}: {text}")
 
 
 def _check(arguments: argparse.Namespace, experiment: Experiment) -> tuple[int, ...]:
