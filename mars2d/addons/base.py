@@ -39,11 +39,9 @@ class Addon(Stateful):
     """
 
     name: str | None = entry(
-        default=None,
-        check=checks.identifier("world.addons."),
-        optional=True,
+        default=None, check=checks.identifier("world.addons."), optional=True,
         doc="the name in world.addons",
-    )
+    )  # fmt: skip
 
     friction: float = entry(
         default=1.0, check=surface_friction,

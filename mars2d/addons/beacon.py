@@ -29,13 +29,9 @@ class Beacon(Addon):
     """
 
     at: Point | None = entry(
-        default=None,
-        check=checks.point,
-        optional=True,
-        unit="m",
-        kw_only=False,
+        default=None, check=checks.point, optional=True, unit="m", kw_only=False,
         doc="its position",
-    )
+    )  # fmt: skip
     path: Outline | None = entry(
         default=None, check=checks.line, optional=True, unit="m", doc="the corners of its path"
     )

@@ -74,11 +74,9 @@ class Floor(Addon):
         default=(), check=_patches, unit="m", doc="polygons and their colours: (outline, colour)"
     )
     color: str | None = entry(
-        default=None,
-        check=_opaque,
-        optional=True,
+        default=None, check=_opaque, optional=True,
         doc="the colour of the rest; None: transparent",
-    )
+    )  # fmt: skip
 
     def _validate(self) -> None:
         super()._validate()

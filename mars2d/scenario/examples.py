@@ -16,17 +16,11 @@ def experiment_name(file: Path) -> str:
     return file.absolute().parent.name if file.name == GAME else file.stem
 
 
-def examples_folder() -> Path:
-    """Return the folder of the examples, a wheel's or a checkout's."""
-    inside = Path(__file__).parents[1] / "examples"
-    return inside if inside.is_dir() else inside.parents[1] / "examples"
-
-
 def courses() -> dict[str, dict[str, Path]]:
     """Return the shipped examples by course: each name with its file."""
-    found = {}
+    found, inside = {}, Path(__file__).parents[1] / "examples"  # of a wheel, or of a checkout
     for course in COURSES:
-        folder = examples_folder() / course
+        folder = (inside if inside.is_dir() else inside.parents[1] / "examples") / course
         files = sorted([*folder.glob("*.py"), *folder.glob(f"*/{GAME}")], key=experiment_name)
         found[course.capitalize()] = {experiment_name(file): file for file in files}
     return found

@@ -89,8 +89,7 @@ def options_in_words(options: Mapping[str, Any]) -> str:
 def parse_option(text: str) -> tuple[str, Any]:
     """Return (name, value) of a setting ``name=value`` from the command line.
 
-    The value is a Python literal, such as ``0.5``, ``True`` or ``(1, 2)``, or true or false as in
-    TOML; anything else is text.
+    The value is a Python literal, such as ``0.5`` or ``(1, 2)``, true or false, or else text.
 
     >>> parse_option("carry=true")
     ('carry', True)

@@ -92,11 +92,9 @@ class Robot(Description):
         default=(), check=checks.listing(Sensor, "Proximity(range=0.3)"), doc="its sensors"
     )
     controller: Callable[[Any], Any] | None = entry(
-        default=None,
-        check=_law,
-        optional=True,
+        default=None, check=_law, optional=True,
         doc="its own law, a function or generator of the robot",
-    )
+    )  # fmt: skip
     sees: str = choice(
         default="full", of=("full", "partial", "positions", "sensors"),
         doc="its law's information: all; itself and its neighbours; itself and their positions; "

@@ -44,7 +44,7 @@ from mars2d.core.description import snake_case
 from mars2d.core.scene import Scene
 from mars2d.geometry import shapes
 from mars2d.scenario import load_scenario
-from mars2d.scenario.examples import examples, examples_folder
+from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.registry import members
 from mars2d.window.run import keys
@@ -341,7 +341,7 @@ def test_an_experiments_page_has_a_picture_a_film_exercises_and_their_answer(pag
     assert films(page) == [f"{name}.gif"]
     commands = [block.text for block in blocks(page) if block.language == "console"]
     assert any(f"mars2d run {name} " in command for command in commands)
-    answer = solution(name).relative_to(examples_folder().parent)
+    answer = solution(name).relative_to(ROOT)
     assert f"(../../{answer})" in page.read_text(encoding="utf-8")
     assert open_experiment(solution(name)).source.checks is not None
 
@@ -356,7 +356,7 @@ def test_a_pursuit_page_has_a_formula_bodies_exercises_and_their_answer(page):
     assert {f"{name}_bodies.png", f"{name}_physics.png"} & {*pictures(page)}
     assert "**The referee counts" in text
     assert re.search(r"\b(1[6-9]|20)\d\d\b|geometry is our own", text), "whose formula?"
-    assert f"(../../{solution(name).relative_to(examples_folder().parent)})" in text
+    assert f"(../../{solution(name).relative_to(ROOT)})" in text
     assert open_experiment(solution(name)).source.checks is not None
     assert f"({page.name})" in (page.parent / "index.md").read_text(encoding="utf-8")
 

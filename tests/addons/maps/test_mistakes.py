@@ -31,11 +31,6 @@ def line(*ends):
     return drawn(lambda document: document.modelspace().add_line(*ends))
 
 
-def half_a_drawing(path):
-    line((0, 0), (1, 1))(path)
-    path.write_bytes(path.read_bytes()[:3000])
-
-
 def a_block_in_itself(document):
     block = document.blocks.new("A")
     block.add_blockref("A", (1, 1))
