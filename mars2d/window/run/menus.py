@@ -84,12 +84,12 @@ def entries_of_scopes(
     def entry(title: str, what: What, of: tuple[int, ...]) -> Entry:
         return Entry(title, partial(scopes.switch, what, of), "", scopes.shows(what, of))
 
-    entries = [Entry(who)]
+    (save,) = entries_of(["figure"], actions)  # which is there before, too: others stay put
+    entries = [save if scopes.is_open else save._replace(act=None, tone="note"), Entry(who)]
     entries += [entry(title, what, bodies) for title, what in _columns(frame, body).items()]
     entries.append(Entry("All bodies"))
     entries += [entry(title, what, ()) for title, what in OF_ALL.items()]
-    entries += [entry(name_of(each), each, ()) for each in scopes.functions]
-    return entries + entries_of(["figure"] if scopes.is_open else [], actions)  # others stay put
+    return entries + [entry(name_of(each), each, ()) for each in scopes.functions]
 
 
 def _columns(frame: Frame, body: int | None) -> dict[str, str]:
