@@ -1,5 +1,6 @@
 """The command line as a student types it: its output and exit codes."""
 
+import argparse
 import json
 import subprocess
 import sys
@@ -10,7 +11,9 @@ import numpy as np
 import pytest
 
 import mars2d
+from mars2d import Scenario, World
 from mars2d.cli import command_line as cli
+from mars2d.cli.outputs import run_and_save
 from tests.cases import each_case
 from tests.processes import PATIENCE, mars, wait_until
 
@@ -238,3 +241,9 @@ def test_checks_that_fail_lose_no_data(roll, tmp_path, capsys, options):
     assert ("finished after 2 s" in shown.out) is not bool(options)
     assert mars2d.load(paths[0]).finished
     assert all(path.stat().st_size > 100 for path in paths)
+
+
+def test_a_window_may_be_closed_before_the_first_step():
+    nothing = argparse.Namespace(**dict.fromkeys(("record", "figure", "html", "video", "at")))
+    record, made, troubles = run_and_save(nothing, lambda: World(Scenario()).record)
+    assert (len(record), made, troubles) == (0, {}, [])

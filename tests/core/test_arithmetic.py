@@ -10,14 +10,7 @@ import numpy as np
 import pytest
 
 from mars2d.core import arithmetic
-from mars2d.core.arithmetic import (
-    angle_of,
-    angles_of,
-    cosine_sine,
-    cosines_sines,
-    norm,
-    norms,
-)
+from mars2d.core.arithmetic import angle_of, angles_of, cosine_sine, cosines_sines, norm, norms
 from mars2d.geometry.shapes import arsinh, logarithm
 from mars2d.physics.islands import arithmetic as engine
 from tests.cases import each_case

@@ -8,13 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mars2d.physics.islands.arithmetic import (
-    chord_share,
-    cosine_sine,
-    exponential,
-    power,
-    sine,
-)
+from mars2d.physics.islands.arithmetic import chord_share, cosine_sine, exponential, power, sine
 
 ULP = 2.0**-53
 """Half the distance between 1 and the next number: by this much a rounded sine may be off."""

@@ -17,10 +17,7 @@ from mars2d.window.run.window import Window
 from mars2d.window.screen.display import display_available
 from tests.processes import HIDDEN
 from tests.window.circling import Circling
-from tests.window.person import (
-    differing,
-    has,
-)
+from tests.window.person import differing, has
 
 FORCE = (0xA3, 0x00, 0x3C)
 VIOLET = (0x7B, 0x32, 0x94)

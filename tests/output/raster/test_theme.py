@@ -11,11 +11,7 @@ from mars2d.output.layers.table import Layers
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.stage import Stage
-from mars2d.output.raster.theme import (
-    DARK,
-    LIGHT,
-    mixed,
-)
+from mars2d.output.raster.theme import DARK, LIGHT, mixed
 from tests.cases import each_case
 from tests.colors import contrast
 from tests.window.circling import Circling
