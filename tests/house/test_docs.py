@@ -341,8 +341,8 @@ def test_an_experiments_page_has_a_picture_a_film_exercises_and_their_answer(pag
     assert films(page) == [f"{name}.gif"]
     commands = [block.text for block in blocks(page) if block.language == "console"]
     assert any(f"mars2d run {name} " in command for command in commands)
-    answer = solution(name).relative_to(ROOT)
-    assert f"(../../{answer})" in page.read_text(encoding="utf-8")
+    answer = solution(name).as_posix().rpartition("/examples/")[2]
+    assert f"(../../examples/{answer})" in page.read_text(encoding="utf-8")
     assert open_experiment(solution(name)).source.checks is not None
 
 
@@ -356,7 +356,7 @@ def test_a_pursuit_page_has_a_formula_bodies_exercises_and_their_answer(page):
     assert {f"{name}_bodies.png", f"{name}_physics.png"} & {*pictures(page)}
     assert "**The referee counts" in text
     assert re.search(r"\b(1[6-9]|20)\d\d\b|geometry is our own", text), "whose formula?"
-    assert f"(../../{solution(name).relative_to(ROOT)})" in text
+    assert f"(../../examples/pursuit/{name}/solution.py)" in text
     assert open_experiment(solution(name)).source.checks is not None
     assert f"({page.name})" in (page.parent / "index.md").read_text(encoding="utf-8")
 
