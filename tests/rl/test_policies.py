@@ -146,10 +146,10 @@ def test_a_robot_that_does_not_fit_is_said_to_in_what(words, tmp_path):
 
 @pytest.mark.slow
 def test_the_training_script_writes_a_law_and_its_curve(tmp_path):
-    from mars2d.scenario.examples import examples_folder
+    from mars2d.scenario.examples import examples
 
     pytest.importorskip("stable_baselines3")
-    script = examples_folder() / "learning" / "train.py"
+    script = examples()["corner_game"].parents[2] / "learning" / "train.py"
     law = tmp_path / "law.onnx"
     command = [sys.executable, str(script), "mars2d/Push-v0", "--steps", "8192", "--out", str(law)]
     subprocess.run(command, check=True, timeout=300)
