@@ -13,7 +13,7 @@ from mars2d.addons.base import Addon
 from mars2d.core import checks
 from mars2d.core.description import accepts, entry, wrong
 from mars2d.core.errors import InputError
-from mars2d.core.interfaces import FrameLike, ScenarioLike, WorldLike
+from mars2d.core.interfaces import Contacts, FrameLike, ScenarioLike, WorldLike
 from mars2d.core.scene import Scene
 
 Float = NDArray[np.float64]
@@ -182,7 +182,7 @@ class Span(NamedTuple):
     scenario: ScenarioLike
     time: Float
     pose: Float
-    contacts: NDArray[np.void]
+    contacts: Contacts
     carrier: int | None = None
 
 

@@ -1,23 +1,107 @@
-"""The names by which parts annotate a scenario, a frame, a robot and a world that they are given.
+"""What parts may use of a scenario, a frame, a robot and a world, as Protocols.
 
-Sensors and add-ons lie below the scenario and the world, so these classes are known to checkers of
-types alone. A base class whose methods users override takes `Any` instead: so an override may name
-the class itself.
+Sensors and add-ons lie below the scenario and the world, so they can't import those classes. They
+annotate what they are handed with these Protocols, which `Scenario`, `Frame` and `World`
+satisfy: what a name means, those say. A base class whose methods users override takes `Any`
+instead: so an override may name the Protocol or the class itself.
 """
+# ruff: noqa: D102 - documented by the classes that satisfy them
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, TypeAlias
+from collections.abc import Callable, Sequence
+from typing import Any, Protocol
 
-if TYPE_CHECKING:
-    from mars2d.record.frame import Frame
-    from mars2d.scenario.scenario import Scenario
-    from mars2d.world.team_view import WorldView
-    from mars2d.world.views import RobotView
+import numpy as np
+from numpy.typing import NDArray
 
-    FrameLike: TypeAlias = Frame
-    RobotLike: TypeAlias = RobotView
-    ScenarioLike: TypeAlias = Scenario
-    WorldLike: TypeAlias = WorldView
-else:
-    FrameLike = RobotLike = ScenarioLike = WorldLike = Any
+from mars2d.core.plane import Outline
+
+Float = NDArray[np.float64]
+Contacts = NDArray[np.void]
+"""Rows of `mars2d.record.CONTACT`."""
+
+
+class ScenarioLike(Protocol):
+    """A `mars2d.Scenario`, as add-ons see it; initial_pose is (3, n)."""
+
+    @property
+    def robots(self) -> Sequence[Any]: ...
+    @property
+    def addons(self) -> Sequence[Any]: ...
+    @property
+    def colors(self) -> Sequence[str]: ...
+    @property
+    def initial_pose(self) -> Float: ...
+    @property
+    def sampling_time(self) -> float: ...
+    @property
+    def last_iteration(self) -> int: ...
+    @property
+    def workspace(self) -> Outline | None: ...
+    @property
+    def on_exit(self) -> str: ...
+    @property
+    def bounds(self) -> tuple[float, float, float, float]: ...
+    @property
+    def obstacles(self) -> Sequence[Outline]: ...
+    def index_of(self, field: str, robot: str | int) -> int: ...
+
+
+class FrameLike(Protocol):
+    """A `mars2d.record.frame.Frame`: one instant, pose (3, n) and the path (k, 3, n) before."""
+
+    @property
+    def scenario(self) -> ScenarioLike: ...
+    @property
+    def time(self) -> float: ...
+    @property
+    def pose(self) -> Float: ...
+    @property
+    def path(self) -> Float: ...
+    @property
+    def contact_log(self) -> Callable[[], Contacts]: ...
+
+
+class RobotLike(Protocol):
+    """A robot while a world runs, as its sensors see it; pose and velocity are (3,)."""
+
+    @property
+    def index(self) -> int: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def drive(self) -> Any: ...
+    @property
+    def radius(self) -> float: ...
+    @property
+    def pose(self) -> Float: ...
+    @property
+    def velocity(self) -> Float: ...
+    @property
+    def contacts(self) -> Contacts: ...
+    @property
+    def sense(self) -> Any: ...
+
+
+class WorldLike(Protocol):
+    """A running `mars2d.World`, as add-ons use it; pose is (3, n), position (2, n)."""
+
+    @property
+    def scenario(self) -> ScenarioLike: ...
+    @property
+    def time(self) -> float: ...
+    @property
+    def iteration(self) -> int: ...
+    @property
+    def pose(self) -> Float: ...
+    @property
+    def position(self) -> Float: ...
+    @property
+    def contacts(self) -> Contacts: ...
+    @property
+    def robots(self) -> Sequence[RobotLike]: ...
+    @property
+    def addons(self) -> Any: ...
+    def stop(self, why: str) -> None: ...
+    def hold(self, robot: str | int) -> None: ...
