@@ -77,10 +77,8 @@ class _State(NamedTuple):
         """Return the state of the body of this index after the impulses of its contacts."""
         contacts = contacts[_of(contacts, index)]
         signs = np.where(contacts["a"] == index, -1.0, 1.0)
-        impulses, arms = (
-            signs[:, None] * mean_forces(contacts, 1.0),
-            contacts["point"] - self.center,
-        )
+        impulses = signs[:, None] * mean_forces(contacts, 1.0)  # over 1 s
+        arms = contacts["point"] - self.center
         turned = float((arms[:, 0] * impulses[:, 1] - arms[:, 1] * impulses[:, 0]).sum())
         pushed = self.changed(impulses.sum(axis=0) / body.inertia.mass)
         return pushed._replace(spin=self.spin + turned / body.inertia.moment)

@@ -95,8 +95,9 @@ def execute(arguments: argparse.Namespace) -> None:
     else:
         if predictions:
             tell("", *filter(None, [experiment.source.summary, table(predictions)]), sep="\n")
-        for remark in (remark for world in watched for remark in remarks.after(world)):
-            tell(f"note: {remark}")
+        for world in watched:
+            for remark in remarks.after(world):
+                tell(f"note: {remark}")
     conclude({} if arguments.json else made, troubles)
 
 
