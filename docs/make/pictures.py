@@ -5,9 +5,11 @@ python docs/make/pictures.py [NAME ...]
 
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from types import SimpleNamespace
 
 import numpy as np
 import pygame
@@ -170,17 +172,21 @@ def hands(path: Path) -> None:
     world = World(Scenario(title="A crate is pulled", robots=robots, props=[crate], workspace=room))
     artist = Artist((1000, 640))
     camera = fitted(world.scenario.bounds, artist.size, artist.layout)
-    mouse = Grab(change=lambda act: act(world) or True, say=print)
+    os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
+    pygame.display.init()  # for the keys that are held
+    player, view = SimpleNamespace(playing=True, frame=world.frame), SimpleNamespace(camera=camera)
+    mouse = Grab(player, view, [], lambda at: at, lambda act: act(world) or True, print, {})
 
     def pixel(x: float, y: float) -> tuple[int, int]:
         return tuple(camera.to_pixels([(x, y)])[0].astype(int))
 
-    mouse.press(world.frame, camera, pixel(-1.0, -0.8), button=1, mods=0, running=True)
+    mouse.press(pixel(-1.0, -0.8), pygame.BUTTON_LEFT)
     for k in range(12):
-        mouse.move(world.frame, camera, pixel(-0.9 + 0.15 * k, -0.7 + 0.1 * k), running=True)
+        mouse.move(pixel(-0.9 + 0.15 * k, -0.7 + 0.1 * k), (0, 0))
         world.step()
+        player.frame = world.frame
     picture = artist.paint(world.frame)
-    artist.painter.paint(picture, mouse.marks(world.frame, camera), camera)
+    artist.painter.paint(picture, mouse.marks(world.frame), camera)
     save_png(picture, path)
 
 
