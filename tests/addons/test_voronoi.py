@@ -13,7 +13,6 @@ from mars2d.core.scene import Circle, Line, Polygon, Scene
 from mars2d.geometry.voronoi import Tessellation
 
 SQUARE = ((0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0))
-HOOK = ((0, 0), (4, 0), (4, 1.5), (1.5, 1.5), (1.5, 2.5), (4, 2.5), (4, 4), (0, 4))
 STARTS = [(1, 1), (3, 1), (1.5, 3)]
 
 

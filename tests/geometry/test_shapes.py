@@ -15,7 +15,6 @@ from mars2d.core.errors import InputError
 from mars2d.geometry.shapes import MAX_VERTICES, Compound, Disc, Piece, Polygon, Rim
 from tests.cases import each_case
 
-NAN = float("nan")
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
 
 

@@ -28,7 +28,7 @@ LINES = {
     "tournaments": 3_079,
     "window": 12_684,
     "world": 3_581,
-    "tests": 45_307,
+    "tests": 45_301,
 }
 """Lines at most, by room of the package, and of all tests."""
 

@@ -70,7 +70,7 @@ MEASURED = {
     "home.png", "straight_chase_bodies.png",
     "homicidal_chauffeur_bodies.png", "homicidal_chauffeur_boundary.png", "two_cars_bodies.png",
     "lion_and_man_bodies.png", "encirclement_bodies.png", "learning_pursuit.png",
-    "learning_push.png", "learning_sumo.png", "learning_coverage.png",
+    "learning_push.png", "learning_sumo.png",
 }  # fmt: skip
 """Pictures that no block makes: `benchmarks/growth.py` and `docs/make/pursuit.py` take minutes, a
 page needs a browser."""

@@ -26,9 +26,6 @@ LAYERS = [
 ]
 """The rooms of the house, low to high: each imports from below only, for types and late as well."""
 
-SEAM = "core/interfaces.py"
-"""The one module that names classes of rooms above, for checkers of types alone."""
-
 DERIVED = {"recorder.py"}
 """Modules whose classes derive from those of a heavy library: they are imported where used."""
 
@@ -91,8 +88,6 @@ def test_a_module_imports_only_from_rooms_below(path: Path) -> None:
     for module, kind in _own_imports(path):
         names = module.split(".")
         if names[0] != "mars2d" or names[1:2] == [room]:
-            continue
-        if kind == "typing" and path.match(SEAM):
             continue
         if len(names) == 1:
             assert kind == "lazy" or room == "cli", f"{path} imports mars2d itself: a circle"

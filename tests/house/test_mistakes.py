@@ -313,8 +313,9 @@ def test_two_robots_commands_are_not_taken_for_rows(answer):
         helps(told, "is each tuple a robot's command? Then write np.transpose(...) of them")
     rows = "    rows = []\n    for robot in world.robots: rows.append([0.3, 0.1])\n    return rows"
     items = rows.replace("[]", "np.zeros((2, 2))").replace("rows.append([0.3, 0.1])", "pass")
+    items = items.removesuffix("\n    return rows")
     items += "\n    for i in range(2):\n        rows[i] = 0.3, 0.1\n    return np.array(rows)"
-    for body, line in ((rows, 10), (items, 13), (rows + ".T", 0), (items[:-5] + "rows.T)", 0)):
+    for body, line in ((rows, 10), (items, 12), (rows + ".T", 0), (items[:-5] + "rows.T)", 0)):
         law = f"class Team:\n  def __call__(self, world):\n{body}\ncontrol = Team()\n"
         told = answer(f"{HEAD}{law}scenario = Scenario(robots=2, stop_time=0.3)\n")
         assert ("this is a row for each robot" in told) is (line > 0), told

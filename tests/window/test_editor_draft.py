@@ -256,6 +256,11 @@ def test_a_file_gets_a_name_that_is_free_and_never_that_of_a_py(tmp_path, monkey
     ):
         dialogs = Editor(Scenario(robots=1), Looks(), path=given).dialogs
         assert (dialogs.path, dialogs.proposal, dialogs.new) == (path, proposal, new)
+        if given == Path("room.toml"):
+            given.write_text("somebody else's")
+            dialogs.save()
+            assert dialogs.prompt.label == "room.toml is there already."
+            assert given.read_text() == "somebody else's"
 
 
 # -- the editor on a surface ----------------------------------------------------------------------

@@ -12,8 +12,6 @@ from mars2d.window.screen.display import Preferences
 from mars2d.window.screen.memory import Memory
 from tests.window.written import Pens, Written
 
-SIZES = [(640, 480), (800, 600), (1024, 768), (1280, 720), (1920, 1080)]
-
 
 @pytest.fixture
 def memory(tmp_path, monkeypatch):

@@ -9,7 +9,6 @@ from mars2d.window.widgets.notes import STAYS, Notes
 from tests.cases import each_case
 from tests.window.written import painter, pixels
 
-SIZES = each_case("size", [(640, 480), (1280, 720), (2560, 1440)])
 LONG = (
     "The film can't be written to /home/somebody/films/of/robots.mp4: there is no space left. " * 4
 )

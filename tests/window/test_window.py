@@ -19,7 +19,6 @@ from tests.processes import HIDDEN
 from tests.window.circling import Circling
 from tests.window.person import differing, has
 
-FORCE = (0xA3, 0x00, 0x3C)
 VIOLET = (0x7B, 0x32, 0x94)
 
 
