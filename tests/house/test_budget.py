@@ -26,7 +26,7 @@ LINES = {
     "study": 2_745,
     "testing": 786,
     "tournaments": 3_079,
-    "window": 12_684,
+    "window": 12_683,
     "world": 3_581,
     "tests": 45_301,
 }

@@ -389,10 +389,8 @@ class Editor:
             painter.write(surface, action.title, 15 * ui, color, bold=first, center=place.center)
             right = place.left - round(8 * ui)
         room = right - 2 * pad - fonts.width(note, 14 * ui) - 12 * ui
-        title, at = (
-            fonts.shorten(self.title, 20 * ui, room, bold=True),
-            (bar.left + pad, bar.centery),
-        )
+        title = fonts.shorten(self.title, 20 * ui, room, bold=True)
+        at = bar.left + pad, bar.centery
         place = painter.write(surface, title, 20 * ui, theme.ink, bold=True, midleft=at)
         if room > 0:
             beside = (place.right + 12 * ui, bar.centery + 2 * ui)

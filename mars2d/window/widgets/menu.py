@@ -238,7 +238,7 @@ class Menu:
         titles = [
             max(width(each.title, SIZE * ui, bold=each.act is None),
                 width(each.more, SMALL * ui))
-            + self._before(each, ui) + round(FIELD * ui * (each.field is not None))
+            + self._before(each, entries, ui) + round(FIELD * ui * (each.field is not None))
             for each in entries
         ]  # fmt: skip
         ends = max(width(f"{each.value}{each.key}", SIZE * ui) for each in entries)
@@ -247,11 +247,11 @@ class Menu:
             sum(_height(each, ui) for each in entries) + 2 * pad,
         )
 
-    def _before(self, entry: Entry, ui: float) -> int:
+    def _before(self, entry: Entry, entries: Sequence[Entry], ui: float) -> int:
         """Return the room before a title, for a tick box or dots, or as it is indented, pixels."""
         if self._docked:
             return round((BOX * entry.level + (BOX + 5) * len(entry.colors)) * ui)
-        most = max(max(len(each.colors), each.on is not None) for each in self._listed())
+        most = max(max(len(each.colors), each.on is not None) for each in entries)
         return round(most * (BOX + 9) * ui) if entry.act is not None or entry.colors else 0
 
     def draw(self, surface: pygame.Surface, bounds: pygame.Rect, painter: Painter) -> None:
@@ -261,8 +261,8 @@ class Menu:
         theme, largest = painter.theme, painter.ui
         if self._docked:
             painter.ui = min(SCALE * largest, bounds.width / LEAST)
-        ui = painter.ui
-        self._arrange(self._entries(), bounds, painter)
+        ui, entries = painter.ui, self._entries()
+        self._arrange(entries, bounds, painter)
         if self._asks:
             draw_veil(surface, painter, bounds)
         if self._docked:
@@ -274,7 +274,8 @@ class Menu:
             if entry.act is not None and k == self._chosen and (self.focused or self._pointed):
                 edge = theme.selected if self.focused else theme.key_edge
                 painter.panel(surface, place, theme.key, 5 * ui, edge)
-            self._draw_entry(surface, painter, entry, place)
+            before = self._before(entry, entries, ui)
+            self._draw_entry(surface, painter, entry, place, before)
         self._scroll.draw_bar(surface, painter, self.plate.inflate(-4 * ui, -16 * ui))
         painter.ui = largest
 
@@ -294,15 +295,15 @@ class Menu:
         self._chosen = min(able, key=lambda k: abs(k - self._chosen), default=self._chosen)
 
     def _draw_entry(
-        self, surface: pygame.Surface, painter: Painter, entry: Entry, place: pygame.Rect
+        self,
+        surface: pygame.Surface,
+        painter: Painter,
+        entry: Entry,
+        place: pygame.Rect,
+        before: int,
     ) -> None:
         fonts, theme, ui = painter.fonts, painter.theme, painter.ui
-        pad, side, before, size = (
-            round(PAD * ui),
-            round(BOX * ui),
-            self._before(entry, ui),
-            SIZE * ui,
-        )
+        pad, side, size = round(PAD * ui), round(BOX * ui), SIZE * ui
         left, right, middle = place.left + pad, place.right - pad, place.top + round(ROW / 2 * ui)
         box = pygame.Rect(left, middle - side // 2, side, side)
         if entry.on is not None:
