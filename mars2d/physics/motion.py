@@ -23,8 +23,8 @@ Act = TypeVar("Act", bound=Callable[..., Any])
 NOTHING = np.empty(0, dtype=CONTACT)
 NOTHING.flags.writeable = False
 
-WIDE = np.dtype([(name, ("f8", CONTACT[name].shape)) for name in CONTACT.names or ()])
-"""The fields of CONTACT, all of them as floating-point numbers."""
+ALIKE = np.dtype([("s", "f8", (2,)), ("i", "i4", (2,)), ("number", "f8", (9,)), ("is", "?", (2,))])
+"""CONTACT with the fields that are alike as one, which are quicker to set."""
 
 
 def repeated(act: Act) -> Act:
@@ -111,7 +111,11 @@ class Motion:
             return NOTHING
         numbers = array("d", bytes(120 * count))
         self._mover.write_contacts(numbers)
-        return np.frombuffer(numbers, dtype=WIDE).astype(CONTACT)
+        wide, contacts = np.frombuffer(numbers).reshape(-1, 15), np.empty(count, CONTACT)
+        alike = contacts.view(ALIKE)
+        alike["s"], alike["i"] = wide[:, :2], wide[:, 2:4]
+        alike["number"], alike["is"] = wide[:, 4:13], wide[:, 13:]
+        return contacts
 
     # -- forks ------------------------------------------------------------------------------------
 

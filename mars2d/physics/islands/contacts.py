@@ -144,10 +144,15 @@ class Touch:
 
     def __lt__(self, other: Touch) -> bool:
         """Return whether it began earlier, or comes before it by bodies and normal."""
-        mine, theirs = self.first, other.first
-        return (self.time, self.a, self.b, mine.normal_x, mine.normal_y) < (
-            other.time, other.a, other.b, theirs.normal_x, theirs.normal_y,
-        )  # fmt: skip
+        if self.time != other.time:
+            return self.time < other.time
+        if self.a != other.a or self.b != other.b:
+            return self.a < other.a or (self.a == other.a and self.b < other.b)
+        mine: Row = self.first
+        theirs: Row = other.first
+        if mine.normal_x != theirs.normal_x:
+            return mine.normal_x < theirs.normal_x
+        return mine.normal_y < theirs.normal_y
 
     def write(self, numbers: cython.Doubles, k: cython.int) -> cython.void:
         """Write the fields of `mars2d.record.contact.CONTACT` from the k-th number on."""

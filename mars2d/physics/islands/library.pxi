@@ -41,7 +41,7 @@ cdef enum:  # where the engine has its numbers, and its collision types: see lib
     LEAD = 6, CENTER = 8, FAST = 10, ANGLE = 14, SPIN = 15, TURN = 17, BIAS = 24, SPIN_BIAS = 26
     REST = 17, REST_ANGLE = 13, LOST = 22, LOST_TURNING = 18, EFFECTIVE_MASS = 27, EFFECTIVE_MOMENT = 19
     PIVOT_IMPULSE = 25, GEAR_IMPULSE = 18, GROOVE_IMPULSE = 32
-    SEWN = 1, JOINED = 2
+    SHAPES = 16, SEWN = 1, JOINED = 2
 
 cdef enum:
     PIVOT, GROOVE, GEAR, SLIDE, PIN, DAMPED_SPRING, ROTARY_LIMIT, ROTARY_SPRING
@@ -72,6 +72,8 @@ cdef Vector *vertices(points) except NULL:
 
 cdef inline double *doubles(Handle thing) noexcept:
     return <double *>thing
+cdef inline void number_shapes_again(Handle space) noexcept:
+    (<uintptr_t *>space)[SHAPES] = 0
 cdef inline Handle numbered(int number) noexcept:
     return <void *><intptr_t>number
 cdef inline int number_of(Handle body) noexcept:

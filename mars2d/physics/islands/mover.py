@@ -395,7 +395,17 @@ class Mover:
 
     def rest(self) -> list[Any]:
         """Forget all but how bodies move and touch, and return that, for `remember`."""
+        small: list[Solver] = []
+        large: list[Solver] = []
+        for solver in self.solvers:
+            if solver.large:
+                large.append(solver)
+            else:
+                solver.begin_again()
+                small.append(solver)
+        self.solvers = large
         self.free()
+        self.solvers, self.spare = small, small[::-1]  # to be taken in order
         self.islands = []
         self.neighbours.begin()
         return [(body.memory(), lasting_touches(body)) for body in self.bodies]

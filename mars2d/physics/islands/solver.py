@@ -19,6 +19,9 @@ from mars2d.physics.islands.tie import Tie
 
 ENDS = ((0.0, 0.0), (0.0, 0.0))
 
+SMALL = 4
+"""Up to this number of shapes of bodies, and of walls, the engine's tables are as in a new space."""
+
 STILL = 1e-6
 """The speed up to which a body is at rest, m/s."""
 
@@ -35,6 +38,7 @@ class Solver:
     last_step: cython.double
     used: cython.bint  # in this control step
     idle: cython.bint  # whether it waits for an island
+    large: cython.bint  # whether the engine's tables have grown
     stale: cython.bint  # whether bodies have moved without it since its last step
     bias_base: cython.double  # e to the power of minus the rate
     joint_bias_base: cython.double
@@ -75,6 +79,10 @@ class Solver:
             chipmunk.add_shape(self.space, shape.handle)
         body.solver, body.placed = self, True
         self.bodies.append(body)
+        shapes: cython.int = 0
+        for other in self.bodies:
+            shapes += len(other.shapes)
+        self.large = self.large or shapes > SMALL
         if not body.is_robot and body.rest_grip > 0.0:  # the floor is another one in each space
             body.allowed = body.twist_allowed = 0.0
             body.applied_x = body.applied_y = body.applied_turn = 0.0
@@ -170,6 +178,13 @@ class Solver:
             self.take_walls_down()
         self.last_step, self.stale = 1e300, False
 
+    def begin_again(self) -> cython.void:
+        """Be as a new one, which a `large` one can't be; the engine keeps its memory."""
+        self.empty()
+        self.take_walls_down()
+        library.number_shapes_again(self.space)
+        self.joint_bias, self.idle = 0.0, True
+
     def take_walls_down(self) -> cython.void:
         """Take all walls out."""
         for held in self.walls.values():
@@ -192,6 +207,7 @@ class Solver:
             sew(held.handle, wall.seams)
         chipmunk.add_body(self.space, held.ground)
         chipmunk.add_shape(self.space, held.handle)
+        self.large = self.large or len(self.walls) > SMALL
 
     # -- joints -------------------------------------------------------------------------------
 
