@@ -407,7 +407,7 @@ class Mover:
         self.free()
         self.solvers, self.spare = small, small[::-1]  # to be taken in order
         self.islands = []
-        self.neighbours.begin()
+        self.neighbours.rest()
         return [(body.memory(), lasting_touches(body)) for body in self.bodies]
 
     def remember(self, memories: list[Any]) -> None:

@@ -45,18 +45,19 @@ class Neighbours:
         self.largest = max([body.radius for body in bodies])
         self.size = 1.0
         self.wide = 3 + int((4.0 * len(bodies)) ** 0.5)
-        self.begin()
-
-    def begin(self) -> cython.void:
-        """List nothing yet, but all pairs if there are few."""
-        self.pairs, self.skin = [], -1.0
-        for a in self.bodies:
-            a.wall_gap, a.wall_skin = -1.0 if self.walls else 1e300, -1.0
-        if len(self.bodies) <= FEW:
+        self.skin = -1.0
+        for a in bodies:
+            a.wall_gap, a.wall_skin = -1.0 if walls else 1e300, -1.0
+        if len(bodies) <= FEW:
             self.skin = 1e300
             for a in self.bodies:
                 for b in self.bodies[a.number + 1 :]:
                     self.add(a, b)
+
+    def rest(self) -> cython.void:
+        """Forget the pairs, whose order follows from when they were listed, unless they are all."""
+        if self.skin < 1e300:
+            self.pairs, self.skin = [], -1.0
 
     def add(self, a: Body, b: Body) -> cython.void:
         """List a pair of bodies, a before b."""
