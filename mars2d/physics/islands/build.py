@@ -46,7 +46,7 @@ NEVER_FAILS = r"^( *)def (?=\w+\([^)]*\) -> (?:Vector|tuple\[cython.double, cyth
 
 FUNCTIONS = """
 void(Handle, double): SpaceStep SpaceSetCurrentTimeStep SpaceSetCollisionSlop
-  SpaceSetCollisionBias ShapeSetFriction ShapeSetElasticity BodySetAngularVelocity BodySetTorque
+  SpaceSetCollisionBias ShapeSetFriction ShapeSetElasticity BodySetTorque
   PinJointSetDist RotaryLimitJointSetMin RotaryLimitJointSetMax ConstraintSetMaxForce
   ConstraintSetMaxBias ConstraintSetErrorBias ArbiterSetFriction ArbiterSetRestitution
 Handle(): SpaceNew BodyNewKinematic BodyNewStatic PivotJointAlloc GrooveJointAlloc GearJointAlloc
@@ -58,7 +58,7 @@ void(Handle, Handle): BodySetUserData SpaceRemoveBody SpaceRemoveShape SpaceRemo
 void(Handle): SpaceFree BodyFree ShapeFree ConstraintFree
 double(Handle): BodyGetAngle BodyGetAngularVelocity SpaceGetCurrentTimeStep ConstraintGetImpulse
 Handle(Handle, Handle): SpaceAddBody SpaceAddShape SpaceAddConstraint
-void(Handle, Vector): BodySetCenterOfGravity BodySetVelocity BodySetForce
+void(Handle, Vector): BodySetCenterOfGravity BodySetForce
 Vector(Handle): BodyGetPosition BodyGetVelocity ArbiterTotalImpulse
 Vector(Handle, int): ArbiterGetPointA ArbiterGetPointB PolyShapeGetVert
 Handle(Handle, Handle, Handle, Vector, Vector): PivotJointInit PinJointInit

@@ -144,8 +144,8 @@ def move(body: Handle, h: cython.double) -> cython.void:
 
 def aim(body: Handle, vx: cython.double, vy: cython.double, spin: cython.double) -> cython.void:
     """Give a body a velocity."""
-    lib.cpBodySetVelocity(body, vector(vx, vy))
-    lib.cpBodySetAngularVelocity(body, spin)
+    n: cython.p_double = doubles(body)
+    n[library.FAST], n[library.FAST + 1], n[library.SPIN] = vx, vy, spin
 
 
 def settle_down(body: Handle) -> cython.void:

@@ -170,8 +170,8 @@ def settle(solver: Solver, numbers: list[Body], impact: Impact, h: cython.double
     kept. impact: any, to work with.
     """
     for body in solver.bodies:
-        body.group, body.springy, body.tied = body, False, False
-        body.hit_x = body.hit_y = body.hit_turn = body.pressure = 0.0
+        body.group, body.springy, body.tied, body.lasting = body, False, False, True
+        body.hit_x = body.hit_y = body.hit_turn = body.pressure = body.held_by = 0.0
         body.push_work = body.friction_work = body.excess = body.hit_power = body.hit_depth = 0.0
         body.crowd, body.driven = 1, body.is_told()
     if solver.find_contacts() > 0:
@@ -202,8 +202,6 @@ def find_shifts(solver: Solver, h: cython.double) -> cython.void:
     drives, floors, joints and pulls have given. Else it was an impact: it acted since bodies came
     to touch. Of what touched before nothing is known. `floor.hold` counts on forces that last.
     """
-    for body in solver.bodies:
-        body.held_by, body.lasting = 0.0, True
     for tie in solver.ties:
         group = group_of(tie.a)
         group.held_by += solver.pull_of(tie)

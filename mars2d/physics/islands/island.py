@@ -126,9 +126,9 @@ class Island:
 
     def clear(self) -> cython.void:
         """Make it one without bodies."""
-        del self.bodies[:]
-        del self.pairs[:]
-        del self.ties[:]
+        self.bodies.clear()
+        self.pairs.clear()
+        self.ties.clear()
         self.solved = self.any_solved = self.any_touch = False
 
     # -- before the first substep -------------------------------------------------------------

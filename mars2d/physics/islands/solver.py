@@ -176,6 +176,7 @@ class Solver:
             self.leave(body)
         if len(self.walls) > 8:
             self.take_walls_down()
+        self.arbiters.clear()
         self.last_step, self.stale = 1e300, False
 
     def begin_again(self) -> cython.void:
@@ -306,7 +307,7 @@ class Solver:
             else:
                 self.bias = decay_base(settings.BIAS_RATE, self.bias_base, h)
         if ratio != 1.0:
-            for k in range(self.find_contacts()):
+            for k in range(self.arbiters.count()):  # those of the last step
                 chipmunk.scale(self.arbiters.at(k), ratio)
             for tie in self.ties:
                 self.remove_parts(tie)
