@@ -27,6 +27,16 @@ ALIKE = np.dtype([("s", "f8", (2,)), ("i", "i4", (2,)), ("number", "f8", (9,)), 
 """CONTACT with the fields that are alike as one, which are quicker to set."""
 
 
+def contacts_of(numbers: array[float]) -> NDArray[np.void]:
+    """Return rows of CONTACT from fifteen numbers each."""
+    wide = np.frombuffer(numbers).reshape(-1, 15)
+    contacts = np.empty(len(wide), dtype=CONTACT)
+    alike = contacts.view(ALIKE)
+    alike["s"], alike["i"] = wide[:, :2], wide[:, 2:4]
+    alike["number"], alike["is"] = wide[:, 4:13], wide[:, 13:]
+    return contacts
+
+
 def repeated(act: Act) -> Act:
     """Let a fork of an engine do again what this method does to the bodies."""
 
@@ -106,16 +116,8 @@ class Motion:
     @repeated
     def take_contacts(self) -> NDArray[np.void]:
         """Return the contacts since the last call by time: a row (CONTACT) per pair and normal."""
-        count = self._mover.count_contacts()
-        if not count:
-            return NOTHING
-        numbers = array("d", bytes(120 * count))
-        self._mover.write_contacts(numbers)
-        wide, contacts = np.frombuffer(numbers).reshape(-1, 15), np.empty(count, CONTACT)
-        alike = contacts.view(ALIKE)
-        alike["s"], alike["i"] = wide[:, :2], wide[:, 2:4]
-        alike["number"], alike["is"] = wide[:, 4:13], wide[:, 13:]
-        return contacts
+        numbers = self._mover.take_contacts()
+        return contacts_of(numbers) if numbers else NOTHING
 
     # -- forks ------------------------------------------------------------------------------------
 

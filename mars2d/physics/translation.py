@@ -47,14 +47,11 @@ def mover_of(scenario: Scenario) -> Any:
         for spring in tie.constraints
         if isinstance(spring, SpringDamper | TurningSpring) and spring.stiffness
     ]
-    accuracy = module.Accuracy(
-        float(scenario.max_overlap), float(thinnest), min(swings, default=1e300)
-    )
     return module.Mover(
-        accuracy,
+        module.Accuracy(float(scenario.max_overlap), float(thinnest), min(swings, default=1e300)),
         module.Glide(*_quadrature(20)),
         bodies,
-        _walls(module, scenario, accuracy.seams()),
+        _walls(module, scenario),
         [_tie(module, tie, bodies) for tie in scenario.ties],
         set(scenario.joined),
         _surfaces(module, scenario, bodies),
@@ -95,13 +92,12 @@ def _body(module: Any, number: int, rigid: Rigid, part: Robot | Prop, forces: bo
     return body
 
 
-def _walls(module: Any, scenario: Scenario, reach: float) -> list[Any]:
-    """Return the walls. reach: how deep in one a corner may be that is put back out of it."""
+def _walls(module: Any, scenario: Scenario) -> list[Any]:
     surfaces = scenario.surfaces
     return [
         module.Wall(
             number, [(float(far), -1 - k) for far, k in wall.owners], -1 - len(surfaces) - number,
-            list(map(float, (*wall.start, *wall.end))), wall.surface, _seams(module, wall, reach),
+            list(map(float, (*wall.start, *wall.end))), wall.surface, _seams(module, wall),
             [tuple(map(float, (*end, *away, far))) for end, away, far in wall.shades],
         )
         for number, wall in enumerate(_walls_in(scenario))
@@ -156,13 +152,13 @@ def _surfaces(module: Any, scenario: Scenario, bodies: Sequence[Any]) -> Any:
     return module.Surfaces(list(bodies), of, settings.STICK_SPEED)
 
 
-def _seams(module: Any, wall: Wall, reach: float) -> Any:
+def _seams(module: Any, wall: Wall) -> Any:
     """Return what contacts need to know of a wall's ends; None if nothing meets it there."""
     if not any(wall.seams):
         return None
     (x, y), (to_x, to_y) = wall.start, wall.end
     far = norm(to_x - x, to_y - y)
-    numbers = [x, y, (to_x - x) / far, (to_y - y) / far, far, reach]
+    numbers = [x, y, (to_x - x) / far, (to_y - y) / far, far]
     for seam in wall.seams:
         numbers += (0.0, 0.0, 0.0) if seam is None else (1.0 + (not seam.bulges), *seam.way)
     return module.Seams(list(map(float, numbers)))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from array import array
 from math import cos, pi, radians, sin
 
 import numpy as np
@@ -17,8 +16,7 @@ from mars2d.physics.islands.contacts import (
     note_row,
     take_touches,
 )
-from mars2d.physics.motion import WIDE
-from mars2d.record.contact import CONTACT
+from mars2d.physics.motion import contacts_of
 from tests.cases import each_case
 from tests.islands import DISC, body_of, piece_of
 
@@ -41,12 +39,7 @@ def note(body, *rows: dict, b: int = -2, time: float = 0.1, h: float = 0.1) -> N
 
 def take(bodies: list) -> np.ndarray:
     """The contacts since the last call, (dtype CONTACT)."""
-    taken = take_touches(bodies)
-    numbers = array("d", bytes(120 * len(taken)))
-    for k, touch in enumerate(taken):
-        touch.write(numbers, 15 * k)
-        touch.begin()
-    return np.frombuffer(numbers, dtype=WIDE).astype(CONTACT)
+    return contacts_of(take_touches(bodies))
 
 
 def test_began_and_ended_go_by_the_last_substep_of_a_step():

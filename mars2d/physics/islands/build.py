@@ -35,7 +35,7 @@ PREFIXES = r"\b(?:chipmunk|library|settings)\.(\w+)"
 ALIASES = r"^(\w+(?:, \w+)*) = (lib\.cp\w+(?:, lib\.cp\w+)*)$"
 """Lines in which `chipmunk` only gives names to the engine's functions."""
 
-OF_C = r"^( *)def (?!__)(?=\w+\([^)]*\) -> (?!None|bool|int|float|list\[Any|tuple\[Any))"
+OF_C = r"^( *)def (?!__)(?=\w+\([^)]*\) -> (?!None|bool|int|float|array|list\[Any|tuple\[Any))"
 """Where a function begins that only the islands call: its result is none of Python's."""
 
 NO_RESULT = r"(?<!check=False\)\n)^( *)def (\w+\([^)]*\)) -> cython\.void:\n((?:\1 .+\n|\n)+)"
@@ -92,6 +92,7 @@ HEAD = """
 # cython: infer_types=True
 cimport cython
 from libc.math cimport ceil, floor, fmod, sqrt
+from array import array
 from typing import Any
 
 FINGERPRINT = "{fingerprint}"

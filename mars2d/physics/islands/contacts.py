@@ -5,6 +5,7 @@ What two bodies do to each other by one normal is one touch; in a corner there a
 
 from __future__ import annotations
 
+from array import array
 from math import sqrt
 from typing import Any
 
@@ -220,12 +221,6 @@ def close_touches(body: Body, time: cython.double, h: cython.double) -> cython.v
         touch.now = None
 
 
-def end_touches(body: Body, time: cython.double) -> cython.void:
-    """Note that a body touches nothing of larger number, and no obstacle, from `time` on."""
-    for touch in body.contacts:
-        touch.end(time)
-
-
 def keep_touches(body: Body) -> cython.void:
     """Keep a body's contacts as they are."""
     for touch in body.contacts:
@@ -256,8 +251,11 @@ def touch_on(body: Body, lasting: list[Any]) -> cython.void:
         body.contacts.append(touch)
 
 
-def take_touches(bodies: list[Body]) -> list[Touch]:
-    """Return the contacts since the last call by time, a, b and normal, and forget the ended."""
+def take_touches(bodies: list[Body]) -> array[float]:
+    """Return the contacts since the last call by time, a, b and normal, and forget the ended.
+
+    Fifteen numbers each; see `Touch.write`.
+    """
     taken: list[Touch] = []
     left: list[Touch]
     for body in bodies:
@@ -273,4 +271,11 @@ def take_touches(bodies: list[Body]) -> list[Touch]:
                 touch.begin()
         body.contacts = left
     taken.sort()
-    return taken
+    numbers = array("d", bytes(120 * len(taken)))
+    row: cython.Doubles = numbers
+    k: cython.int = 0
+    for touch in taken:
+        touch.write(row, k)
+        touch.begin()
+        k += 15
+    return numbers

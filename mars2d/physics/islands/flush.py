@@ -192,11 +192,6 @@ class Flush:
             chipmunk.put_point(arbiter, x, y, self.px, self.py)
 
 
-def show(shape: Handle, flush: Flush) -> cython.void:
-    """Say what is to straighten contacts with a shape of a body, once it is joined."""
-    chipmunk.set_data(shape, library.address_of(flush))
-
-
 def join(shape: Handle) -> cython.void:
     """Let contacts with a shape of a body be straightened."""
     chipmunk.set_type(shape, library.JOINED)

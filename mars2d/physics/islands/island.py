@@ -82,10 +82,6 @@ class Accuracy:
         )
         self.overload = settings.OVERLOAD * self.entry
 
-    def seams(self) -> float:
-        """Return how deep in a wall a corner may be that is put back out of it, metres."""
-        return self.seam_depth
-
 
 @cython.cclass
 class Island:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from array import array
 from typing import Any
 
 from mars2d.physics.islands import settings
@@ -9,9 +10,7 @@ from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.contacts import (
-    Touch,
     begin_touches_again,
-    end_touches,
     keep_touches,
     lasting_touches,
     take_touches,
@@ -36,7 +35,6 @@ class Mover:
     bodies: list[Body]
     ties: list[Tie]
     neighbours: Neighbours
-    taken: list[Touch]  # contacts that were counted, but not written yet
     solvers: list[Solver]
     spare: list[Solver]  # those that no island uses
     islands: list[Island]  # as many as there were at most
@@ -61,7 +59,7 @@ class Mover:
         self.accuracy, self.glide, self.bodies, self.ties = accuracy, glide, bodies, ties
         self.thrust = Thrust()
         self.neighbours = Neighbours(bodies, walls, passing)
-        self.taken, self.spare, self.solvers, self.islands = [], [], [], []
+        self.spare, self.solvers, self.islands = [], [], []
         for body in bodies:
             body.slack = settings.SLACK
 
@@ -262,7 +260,7 @@ class Mover:
                 keep_touches(body)
             if self.neighbours.at_wall(body):
                 for pair in body.wall_pairs:
-                    if pair.apart() <= body.way and not pair.hidden():
+                    if pair.apart() <= body.way and not pair.wall.hidden(body):
                         island.pairs.append(pair)
         self.add_pairs_of_bodies()
 
@@ -293,7 +291,8 @@ class Mover:
         self.neighbours.advance()
         for body in self.bodies:
             if not body.near:
-                end_touches(body, time)
+                for touch in body.contacts:
+                    touch.end(time)
                 self.carry(body, duration)
             body.account_now()
 
@@ -330,19 +329,9 @@ class Mover:
             states[k + 5] = body.spin
             k += 6
 
-    def count_contacts(self) -> int:
-        """Return how many pairs have touched since contacts were last written."""
-        self.taken = take_touches(self.bodies)
-        return len(self.taken)
-
-    def write_contacts(self, numbers: cython.Doubles) -> None:
-        """Write the contacts that were counted, fifteen numbers each; see `Touch.write`."""
-        k: cython.int = 0
-        for touch in self.taken:
-            touch.write(numbers, k)
-            touch.begin()
-            k += 15
-        self.taken = []
+    def take_contacts(self) -> array[float]:
+        """Return the contacts since the last call, fifteen numbers each; see `Touch.write`."""
+        return take_touches(self.bodies)
 
     def take_effort(self, efforts: cython.Doubles) -> None:
         """Write the largest share of its bounds that each drive used since the last call."""
@@ -395,17 +384,7 @@ class Mover:
 
     def rest(self) -> list[Any]:
         """Forget all but how bodies move and touch, and return that, for `remember`."""
-        small: list[Solver] = []
-        large: list[Solver] = []
-        for solver in self.solvers:
-            if solver.large:
-                large.append(solver)
-            else:
-                solver.begin_again()
-                small.append(solver)
-        self.solvers = large
-        self.free()
-        self.solvers, self.spare = small, small[::-1]  # to be taken in order
+        self.free(True)
         self.islands = []
         self.neighbours.rest()
         return [(body.memory(), lasting_touches(body)) for body in self.bodies]
@@ -417,15 +396,23 @@ class Mover:
             body.remember(memory)
             touch_on(body, touches)
 
-    def free(self) -> None:
-        """Free the engine's objects, and the impulses that the solvers keep."""
+    def free(self, again: bool = False) -> None:
+        """Free the engine's objects, and the impulses that the solvers keep.
+
+        again: whether the solvers that can begin again are kept for that.
+        """
+        kept: list[Solver] = []
         for solver in self.solvers:
-            solver.free()
+            if again and not solver.large:
+                solver.begin_again()
+                kept.append(solver)
+            else:
+                solver.free()
         for tie in self.ties:
             free_tie(tie)
         for body in self.bodies:
             free_things_of(body)
-        self.solvers, self.spare = [], []
+        self.solvers, self.spare = kept, kept[::-1]  # taken in the order in which they were made
 
 
 def root(body: Body) -> Body:

@@ -78,12 +78,13 @@ class Wall:
                 found = number
         return found
 
-    def hidden(self, x: cython.double, y: cython.double, room: cython.double) -> cython.bint:
-        """Return whether a wall that it ends at keeps a body within a circle from it."""
+    def hidden(self, body: Body) -> cython.bint:
+        """Return whether a wall that it ends at keeps a body from it in the control step."""
+        room: cython.double = body.radius + body.way
         for end_x, end_y, away_x, away_y, far in self.shades:
-            from_x: cython.double = x - end_x
-            from_y: cython.double = y - end_y
-            if from_x * away_x + from_y * away_y > 0.0 and length(from_x, from_y) + room < far:
+            x: cython.double = body.start_x - end_x
+            y: cython.double = body.start_y - end_y
+            if x * away_x + y * away_y > 0.0 and length(x, y) + room < far:
                 return True
         return False
 
@@ -137,14 +138,6 @@ class Pair:
         if self.is_wall:
             x, y = self.wall.way(self.a.start_x, self.a.start_y)
         return length(x, y) - self.radii
-
-    def hidden(self) -> cython.bint:
-        """Return whether another wall keeps the body from this one in the control step."""
-        body: Body = self.a
-        wall: Wall = self.wall
-        if not wall.shades:
-            return False
-        return wall.hidden(body.start_x, body.start_y, body.radius + body.way)
 
     def parts(self) -> cython.bint:
         """Return whether its bodies move apart, but for what they turn."""

@@ -52,9 +52,9 @@ class Seams:
     high: cython.double
 
     def __init__(self, numbers: list[float]) -> None:
-        """Take x, y of the start, the direction, the length, `reach`, and the twelve of `met`."""
-        self.x, self.y, self.ux, self.uy, self.far, self.reach = numbers[:6]
-        self.met = numbers[6:]
+        """Take x, y of the start, the direction, the length, and the twelve of `met`."""
+        self.x, self.y, self.ux, self.uy, self.far = numbers[:5]
+        self.met = numbers[5:]
 
     def correct(self, arbiter: Arbiter, is_first: cython.bint) -> cython.void:
         """Look at a contact before it is solved. is_first: whether the wall is its first shape."""
@@ -162,12 +162,6 @@ class Seams:
             return
         arbiter.n.x, arbiter.n.y = fx, fy
         chipmunk.put_point(arbiter, px + deepest * fx, py + deepest * fy, px, py)
-
-
-def sew(segment: Handle, seams: Seams) -> cython.void:
-    """Let contacts with a wall be corrected at its seams."""
-    chipmunk.set_data(segment, library.address_of(seams))
-    chipmunk.set_type(segment, library.SEWN)
 
 
 @library.callback("void(cpArbiter *, cpSpace *, void *)")

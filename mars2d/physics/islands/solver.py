@@ -10,17 +10,17 @@ from mars2d.physics.islands.arithmetic import cosine_sine, decay_base, exponenti
 from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.chipmunk import Held
 from mars2d.physics.islands.floor import hold
-from mars2d.physics.islands.flush import Flush, join, lay, show, straighten_contact
+from mars2d.physics.islands.flush import Flush, join, lay, straighten_contact
 from mars2d.physics.islands.library import Arbiters, Handle, Vector
 from mars2d.physics.islands.pair import Wall
-from mars2d.physics.islands.seams import correct_contact, sew
+from mars2d.physics.islands.seams import correct_contact
 from mars2d.physics.islands.surfaces import settle_contact
 from mars2d.physics.islands.tie import Tie
 
 ENDS = ((0.0, 0.0), (0.0, 0.0))
 
 SMALL = 4
-"""Up to this number of shapes of bodies, and of walls, the engine's tables are as in a new space."""
+"""Up to this number of bodies' shapes, and of walls, the engine's tables are as in a new space."""
 
 STILL = 1e-6
 """The speed up to which a body is at rest, m/s."""
@@ -105,7 +105,7 @@ class Solver:
             else:
                 shape.handle = chipmunk.new_polygon(body.handle, points, body.surface)
             piece.shape, piece.flush = shape.handle, Flush(piece, self.room)
-            show(piece.shape, piece.flush)
+            chipmunk.set_data(piece.shape, library.address_of(piece.flush))
             for other in body.pieces:
                 if other is not piece and lay(piece, other, 0.0, 0.0, body.number, self.room / 8):
                     join(piece.shape)
@@ -205,7 +205,9 @@ class Solver:
         ends = ((wall.x, wall.y), (wall.x + wall.edge_x, wall.y + wall.edge_y))
         held.handle = chipmunk.new_segment(held.ground, ends, wall.surface)
         if wall.seams is not None:
-            sew(held.handle, wall.seams)
+            wall.seams.reach = self.room
+            chipmunk.set_data(held.handle, library.address_of(wall.seams))
+            chipmunk.set_type(held.handle, library.SEWN)
         chipmunk.add_body(self.space, held.ground)
         chipmunk.add_shape(self.space, held.handle)
         self.large = self.large or len(self.walls) > SMALL
