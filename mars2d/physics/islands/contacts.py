@@ -221,12 +221,6 @@ def close_touches(body: Body, time: cython.double, h: cython.double) -> cython.v
         touch.now = None
 
 
-def keep_touches(body: Body) -> cython.void:
-    """Keep a body's contacts as they are."""
-    for touch in body.contacts:
-        touch.keep()
-
-
 def begin_touches_again(body: Body) -> cython.void:
     """Go back to the contacts that were kept, and drop those that are new."""
     touches = body.contacts
@@ -234,16 +228,12 @@ def begin_touches_again(body: Body) -> cython.void:
     for touch in touches:
         if touch.kept is not None:
             body.contacts.append(touch.kept)
-    keep_touches(body)
-
-
-def lasting_touches(body: Body) -> list[tuple[int, Row]]:
-    """Return whom a body touches since contacts were taken, and the last contact with each."""
-    return [(touch.b, touch.last) for touch in body.contacts]
+    for touch in body.contacts:
+        touch.keep()
 
 
 def touch_on(body: Body, lasting: list[Any]) -> cython.void:
-    """Let a body touch the same as one whose `lasting_touches` these are."""
+    """Let a body touch what another one touches, of which the last contact with each is known."""
     body.contacts = []
     for b, last in lasting:
         touch = Touch(body.number, b, last)

@@ -9,13 +9,7 @@ from mars2d.physics.islands import settings
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
-from mars2d.physics.islands.contacts import (
-    begin_touches_again,
-    keep_touches,
-    lasting_touches,
-    take_touches,
-    touch_on,
-)
+from mars2d.physics.islands.contacts import begin_touches_again, take_touches, touch_on
 from mars2d.physics.islands.floor import Glide
 from mars2d.physics.islands.island import Accuracy, Island
 from mars2d.physics.islands.neighbours import Neighbours
@@ -257,7 +251,8 @@ class Mover:
             if not body.kept:
                 body.kept = True
                 body.initial.begin_with(body)
-                keep_touches(body)
+                for touch in body.contacts:
+                    touch.keep()
             if self.neighbours.at_wall(body):
                 for pair in body.wall_pairs:
                     if pair.apart() <= body.way and not pair.wall.hidden(body):
@@ -288,8 +283,10 @@ class Mover:
 
     def carry_on(self, duration: cython.double, time: cython.double) -> cython.void:
         """Carry those that nothing can reach, and end the control step."""
-        self.neighbours.advance()
         for body in self.bodies:
+            body.moved += body.way
+            body.wall_gap -= body.way
+            body.wall_skin -= body.way
             if not body.near:
                 for touch in body.contacts:
                     touch.end(time)
@@ -387,7 +384,10 @@ class Mover:
         self.free(True)
         self.islands = []
         self.neighbours.rest()
-        return [(body.memory(), lasting_touches(body)) for body in self.bodies]
+        return [
+            (body.memory(), [(touch.b, touch.last) for touch in body.contacts])
+            for body in self.bodies
+        ]
 
     def remember(self, memories: list[Any]) -> None:
         """Go on as another mover of the same bodies does since it has rested."""
