@@ -283,10 +283,8 @@ class Mover:
 
     def carry_on(self, duration: cython.double, time: cython.double) -> cython.void:
         """Carry those that nothing can reach, and end the control step."""
+        self.neighbours.advance()
         for body in self.bodies:
-            body.moved += body.way
-            body.wall_gap -= body.way
-            body.wall_skin -= body.way
             if not body.near:
                 for touch in body.contacts:
                     touch.end(time)

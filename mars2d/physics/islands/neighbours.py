@@ -83,6 +83,13 @@ class Neighbours:
         for pair in self.pairs:
             pair.start_gap = pair.apart()
 
+    def advance(self) -> cython.void:
+        """Note that bodies may have moved by their ways."""
+        for body in self.bodies:
+            body.moved += body.way
+            body.wall_gap -= body.way
+            body.wall_skin -= body.way
+
     # -- walls --------------------------------------------------------------------------------
 
     def at_wall(self, body: Body) -> cython.bint:
