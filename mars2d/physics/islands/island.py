@@ -476,11 +476,15 @@ class Island:
                 h = min(h, settings.OFFSET_STEP)
             if body.is_robot and body.solved and body.since > settings.LINGER:
                 h = min(h, body.time_to_brake(accuracy.braking_turn))
-            if body.touches and body.slows > 0.0 and self.push_step >= 1e300:
-                # Where no drive pushes it on the floor stops it: there the substep ends.
-                stop: cython.double = length(body.vx, body.vy) / body.slows
-                if 0.0 < stop < h:
-                    h = max(stop, min(h, settings.OFFSET_STEP))
+            alone: cython.bint = body.touches and self.push_step >= 1e300
+            if body.slows > 0.0 and (alone or (body.tied and accuracy.spring_step < 1e300)):
+                # Where no drive pushes it on the floor stops it, or a spring does: there the
+                # substep ends.
+                speed: cython.double = length(body.vx, body.vy)
+                along: cython.double = body.applied_x * body.vx + body.applied_y * body.vy
+                slower: cython.double = body.slows * speed - along / body.mass
+                if 0.0 < speed * speed < slower * h:
+                    h = max(speed * speed / slower, min(h, settings.OFFSET_STEP))
         self.any_solved = False
         for body in self.bodies:
             if body.solved and not body.touches:

@@ -245,7 +245,7 @@ class Solver:
         for k in range(len(tie.parts)):
             if tie.parts[k][0] != library.ROTARY_LIMIT and tie.parts[k][0] != library.ROTARY_SPRING:
                 part = tie.joints[k]
-                most = max(most, chipmunk.used_of(part.handle))
+                most = max(most, abs(chipmunk.used_of(part.handle)))
         return most
 
     def rebound(self, tie: Tie, h: cython.double) -> cython.void:
