@@ -315,7 +315,8 @@ class Operator:
                 for body, pull in self._pulls.items()
             }
             for push in pushes:
-                own, others = _pushed(push, float(poses[2, push.body])), loads.get(push.body)
+                theta = poses[2, push.body] + velocities[2, push.body] * h / 2  # in the middle
+                own, others = _pushed(push, float(theta)), loads.get(push.body)
                 loads[push.body] = own if others is None else _sum(own, others)
             for body, load in loads.items():
                 self._load(engine, body, *load)

@@ -476,7 +476,8 @@ class Island:
                 h = min(h, settings.OFFSET_STEP)
             if body.is_robot and body.solved and body.since > settings.LINGER:
                 h = min(h, body.time_to_brake(accuracy.braking_turn))
-            if body.slows > 0.0 and body.tied and accuracy.spring_step < 1e300:
+            drawn: cython.bint = body.pulled or (body.tied and accuracy.spring_step < 1e300)
+            if body.slows > 0.0 and drawn:
                 h = self.time_to_stop(body, h, settings.STOP_STEP)
             elif body.slows > 0.0 and body.touches and self.push_step >= 1e300:
                 h = self.time_to_stop(body, h, settings.OFFSET_STEP)
@@ -495,7 +496,8 @@ class Island:
         There a substep ends where no drive pushes it on, but after `least` seconds at least.
         """
         speed: cython.double = length(body.vx, body.vy)
-        along: cython.double = body.applied_x * body.vx + body.applied_y * body.vy
+        along: cython.double = (body.applied_x + body.pull_x) * body.vx
+        along += (body.applied_y + body.pull_y) * body.vy
         slower: cython.double = body.slows * speed - along / body.mass
         if 0.0 < speed * speed < slower * h:
             return max(speed * speed / slower, min(h, least))
@@ -540,6 +542,7 @@ class Island:
         """Note that a body has moved in closed form."""
         body.slips = body.slips and body.is_robot and not body.limited and body.accelerates
         body.applied_x = body.applied_y = body.applied_turn = 0.0
+        body.known = False
         body.account_now()
 
     def take(self, body: Body, h: cython.double) -> cython.void:
