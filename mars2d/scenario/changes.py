@@ -42,8 +42,13 @@ def check_same(before: Scenario, after: Scenario, same: Same = operator.eq) -> N
     same: decides whether two values are the same: `alike` for a scenario that was read again, whose
     laws may have changed.
     """
-    for what in _obstacles(before, after, same):
+    if what := needs_start(before, after, same):
         raise InputError(f"this needs a new start: {what}")
+
+
+def needs_start(before: Scenario, after: Scenario, same: Same = operator.eq) -> str:
+    """Return the reason why a running world can't go on with a scenario, or ""."""
+    return next(_obstacles(before, after, same), "")
 
 
 def _obstacles(before: Scenario, after: Scenario, same: Same) -> Iterator[str]:

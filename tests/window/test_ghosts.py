@@ -76,7 +76,7 @@ def test_from_the_other_branch_this_one_is_seen():
 
 def test_after_its_end_a_branch_stays_there_and_says_so():
     timeline = branched(newest=25)
-    timeline.branches[0].stop("enough")
+    timeline.branches[0].world.stop("enough")
     run_to(timeline, 60)
     scene = ghosts(timeline, timeline.frame)
     assert [x for x, _ in centers(scene)] == pytest.approx([2.5, 2.5])

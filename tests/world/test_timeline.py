@@ -14,7 +14,7 @@ from mars2d.core.errors import InputError
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import Experiment, open_experiment
 from mars2d.world.loop import simulate
-from mars2d.world.past import MOST
+from mars2d.world.branch import MOST
 from mars2d.world.timeline import Timeline
 from mars2d.world.verify import rerun
 from tests.cases import each_case
@@ -202,7 +202,7 @@ def test_a_world_goes_on_from_the_last_snapshot_and_repeats_only_what_follows():
         assert timeline.remark == ""
     finish(timeline)
     assert timeline.record.digest == expected.digest
-    assert len(timeline._past._snapshots) <= MOST
+    assert len(timeline._branch.snapshots) <= MOST
 
 
 # -- hands -----------------------------------------------------------------------------------------
@@ -269,7 +269,7 @@ def test_what_hands_did_is_undone_and_the_run_with_it_is_a_branch(written):
     steered = timeline.undo()  # the whole drive
     assert (steered.row, timeline.row, timeline.newest) == (10, 10, 10)
     assert timeline.world.prop_pose[:2, 0].tolist() == [2, 2]
-    assert [branch.iteration for branch in timeline.branches] == [13]
+    assert [branch.world.iteration for branch in timeline.branches] == [13]
     timeline.undo()
     assert timeline.world.prop_pose[:2, 0].tolist() == [0, 0]
     assert np.array_equal(timeline.world.pose, untouched)
@@ -314,7 +314,7 @@ def test_a_branch_of_a_branch_and_back(memory):
     assert timeline.record.digest == expected.digest
     assert timeline.row == 140
     timeline.show(timeline.others[0])
-    assert timeline.world is first
+    assert timeline.world is first.world
     timeline.go(100)
     timeline.show(timeline.others[0])
     assert timeline.world is second
@@ -341,7 +341,7 @@ scenario = Scenario(robots=[Robot(controller=law)], stop_time=50, sampling_time=
     last = timeline.newest
     timeline.change(lambda w: w.operator.place(0, (-1.0, 0.0, 0.0)))
     assert not timeline.over
-    assert [world.over_message for world in timeline.branches] == ["there"]
+    assert [branch.world.over_message for branch in timeline.branches] == ["there"]
     finish(timeline)
     assert timeline.newest > last + 10
     timeline.go(0)
@@ -457,7 +457,7 @@ def test_a_way_back_can_be_broken_off(memory, monkeypatch):
         return len(told) < 2
 
     with monkeypatch.context() as patch, pytest.raises(InputError, match="nothing was changed"):
-        patch.setattr("mars2d.world.past.SLICE", 0.001)
+        patch.setattr("mars2d.world.branch.SLICE", 0.001)
         branch(timeline, progress)
     assert len(told) == 2
     assert 0 <= told[0] <= told[1] < 1
@@ -611,7 +611,8 @@ def test_a_run_that_hands_changed_is_kept_when_it_is_started_anew(memory):
     run_to(timeline, 80)
     changed, (before,) = timeline.world, timeline.branches
     timeline.restart()
-    assert (timeline.newest, timeline.branches, timeline.others) == (0, [], [changed])
+    assert (timeline.newest, timeline.branches) == (0, [])
+    assert [branch.world for branch in timeline.others] == [changed, before.world]
     assert not timeline.touched
     assert timeline.changed
     finish(timeline)

@@ -18,7 +18,7 @@ from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.player import Player
 from mars2d.window.screen.source import RECORDING
 from mars2d.window.widgets.notes import Notes
-from mars2d.world.past import Progress
+from mars2d.world.branch import Branch, Progress
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
 
@@ -98,7 +98,7 @@ class Director:
         else:
             self._notes.say("there is no other branch: change something in the past to make one")
 
-    def show(self, other: World) -> None:
+    def show(self, other: Branch) -> None:
         """Show another branch, or an earlier run."""
         timeline = self.timeline
         assert timeline is not None

@@ -26,8 +26,9 @@ def ghosts(timeline: Timeline, frame: Frame) -> Scene:
     Bodies at the same pose as in the present branch are left out.
     """
     scene = Scene()
-    for world in timeline.branches[-1:]:
-        parted, dt = timeline.parted(world), frame.scenario.sampling_time
+    for branch in timeline.branches[-1:]:
+        world, parted = branch.world, timeline.parted(branch)
+        dt = frame.scenario.sampling_time
         # Times are whole numbers of steps, except for rounding.
         along = min(round(frame.time / dt, 6), float(world.iteration))
         if along < parted:

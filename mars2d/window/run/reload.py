@@ -9,7 +9,7 @@ from pathlib import Path
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.files import files_read
 from mars2d.scenario.experiment import Experiment
-from mars2d.world.past import Progress
+from mars2d.world.branch import Progress
 from mars2d.world.timeline import Timeline
 
 INTERVAL = 0.3
@@ -91,15 +91,13 @@ class Reload:
 
     def _take(self, experiment: Experiment) -> str:
         """Continue with an experiment; return the effect in words."""
-        try:
-            self._timeline.check(experiment)
-        except InputError as error:
+        if reason := self._timeline.needs_start(experiment):
             self._timeline.restart(experiment)
-            words = f"started again: {str(error).partition(': ')[2]}"
+            words = f"started again: {reason}"
         else:
+            moved = self._timeline.moved(experiment)
             words = self._timeline.take(experiment, self._progress)
-            pairs = zip(self._experiment.scenario.bodies, experiment.scenario.bodies, strict=True)
-            if moved := [str(new.name) for old, new in pairs if old.pose != new.pose]:
+            if moved:
                 words = f"R starts {', '.join(moved)} from there; all else is {words}"
         self._adopt()
         return words
