@@ -307,7 +307,7 @@ class Timeline:
         return self.needs_start(experiment) or next(moved, "")
 
     def moved(self, experiment: Experiment) -> list[str]:
-        """Return the names of the bodies that start elsewhere in an experiment that may be taken."""
+        """Return the names of bodies that start elsewhere in an experiment that can be taken."""
         pairs = zip(self.experiment.scenario.bodies, experiment.scenario.bodies, strict=True)
         return [str(after.name) for before, after in pairs if before.pose != after.pose]
 

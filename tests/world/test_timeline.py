@@ -13,8 +13,8 @@ from mars2d.bodies.props import Box
 from mars2d.core.errors import InputError
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import Experiment, open_experiment
-from mars2d.world.loop import simulate
 from mars2d.world.branch import MOST
+from mars2d.world.loop import simulate
 from mars2d.world.timeline import Timeline
 from mars2d.world.verify import rerun
 from tests.cases import each_case
@@ -203,6 +203,11 @@ def test_a_world_goes_on_from_the_last_snapshot_and_repeats_only_what_follows():
     finish(timeline)
     assert timeline.record.digest == expected.digest
     assert len(timeline._branch.snapshots) <= MOST
+    timeline.go(300)
+    Noting.steps.clear()
+    assert timeline.set({"robots.robot0.mass": 2.0}) == ""
+    assert Noting.steps[0] == 256, "a slider whose laws are the same needs no new start either"
+    assert timeline.world.scenario.robots[0].mass == 2.0
 
 
 # -- hands -----------------------------------------------------------------------------------------
@@ -521,6 +526,22 @@ def test_in_the_past_they_make_a_branch(written):
     assert timeline.world.history.command[-1].ravel().tolist() == [0.1, 0.5]
 
 
+def test_what_is_read_at_the_end_holds_where_something_is_changed(written):
+    text = STRAIGHT.replace("sampling_time=0.1,", "sampling_time=0.1, stop_time=2.0,")
+    path = written(text)
+    timeline = Timeline(open_experiment(path))
+    finish(timeline)
+    path.write_text(text.replace("0.2, 0.0", "0.1, 0.5").replace("(4, -1)", "(4, -2)"))
+    assert timeline.take(open_experiment(path)).startswith("in effect where you go back")
+    assert timeline.over
+    timeline.go(10)
+    branch(timeline)
+    assert timeline.scenario.obstacles == (((4.0, -2.0), (4.0, 1.0)),)
+    timeline.advance()
+    assert timeline.world.history.command[-1].ravel().tolist() == [0.1, 0.5]
+    assert timeline.remark == ""
+
+
 def test_laws_read_again_have_watched_what_was_before(written):
     counting = """
 from mars2d import Robot, Scenario
@@ -618,9 +639,30 @@ def test_a_run_that_hands_changed_is_kept_when_it_is_started_anew(memory):
     finish(timeline)
     assert timeline.record.digest == simulated(memory).digest
     assert [len(branch) for branch in timeline.record.branches] == [80, 60]
+    again = timeline.world
     timeline.show(timeline.others[0])
     assert (timeline.world, timeline.branches, timeline.row) == (changed, [before], 80)
+    shown = [changed]
+    for _ in range(3):
+        timeline.show(timeline.others[0])
+        shown.append(timeline.world)
+    assert shown == [changed, before.world, again, changed], "each in turn"
     run_to(timeline, 90)
     timeline.go(50)
     assert branch(timeline) is not changed
     assert len(timeline.branches) == 2
+
+
+def test_an_earlier_run_takes_the_laws_of_now_without_a_doubt(written):
+    path = written(STRAIGHT)
+    timeline = Timeline(open_experiment(path))
+    run_to(timeline, 20)
+    timeline.world.operator.place(0, (-1, 0, 0))
+    path.write_text(STRAIGHT.replace("0.2, 0.0", "0.1, 0.5"))
+    timeline.restart()
+    timeline.show(timeline.others[0])
+    timeline.go(10)
+    branch(timeline)
+    assert timeline.remark == ""
+    timeline.advance()
+    assert timeline.world.history.command[-1].ravel().tolist() == [0.1, 0.5]
