@@ -60,6 +60,13 @@ class Branch:
         """Return up to which row this and another one are the same; 0 for those of other runs."""
         return min((row for _, row in {*self.parts} ^ {*other.parts}), default=NEVER)
 
+    def poses(self, row: int) -> Float:
+        """Return the poses (3, n + p) of robots and props at a row, or at the newest one."""
+        history = self.world.history
+        if row >= len(history):
+            return np.hstack([self.world.pose, self.world.prop_pose])
+        return np.hstack([history.pose[row], history.prop_pose[row]])
+
     def keep(self) -> None:
         """Make a snapshot before anything is done to the world, if it is time to."""
         world, row, every = self.world, self.world.iteration, REST
@@ -77,33 +84,32 @@ class Branch:
         except InputError:  # something can't be copied
             self.snapshots = None
 
+    def decides_as(self, experiment: Experiment) -> bool:
+        """Return whether its laws are those of an experiment, as far as can be told."""
+        return experiment is self.experiment or experiment.decides_as(self.experiment)
+
     def upto(self, row: int) -> Snapshots:
         """Return the snapshots up to a row."""
         return {k: kept for k, kept in (self.snapshots or {}).items() if k <= row}
 
     def off(
-        self,
-        row: int,
-        progress: Progress,
-        experiment: Experiment | None = None,
-        done: int | None = None,
+        self, row: int, progress: Progress, experiment: Experiment, done: int | None = None
     ) -> Branch:
         """Return a branch off this one, whose world is as this one was at a row.
 
         The world goes on from the last snapshot before, or else from the start with laws read
         again, which are asked on the way. It has read its sensors, and hands are still on it.
-        experiment: just opened, whose laws are asked instead; None: those of this one. done: how
-        many interventions are done again; None: all. Raises InputError where `progress` breaks it
-        off, and where the world is not the same.
+        experiment: whose laws are asked. done: how many interventions are done again; None: all.
+        Raises InputError where `progress` breaks it off, and where the world is not the same.
         """
-        kept = {} if experiment else self.upto(row)
-        since = NEVER if experiment else self.since
+        same = self.decides_as(experiment)
+        kept, since = (self.upto(row), self.since) if same else ({}, NEVER)
         parts = [*(part for part in self.parts if part[1] <= row), (object(), row)]
         while True:
             world = self._forked(*kept[max(kept)]) if kept else self._begun(experiment)
-            branch = Branch(world, experiment or self.experiment, parts, min(since, row), kept)
+            branch = Branch(world, experiment, parts, min(since, row), kept)
             branch._follow(self, row, progress, since, done)
-            same = done is not None or _same(self.world, world, row)
+            same = done is not None or np.array_equal(branch.poses(row), self.poses(row))
             if same and not (kept and branch.doubt):
                 return branch
             if not kept:
@@ -118,10 +124,10 @@ class Branch:
         recorder = self.world.recorder.upto(*counts)
         return cast(World, forked(snapshot, laws=True, recorder=recorder).world)
 
-    def _begun(self, experiment: Experiment | None) -> World:
-        """Return a world at the start of this run, with laws read again."""
+    def _begun(self, experiment: Experiment) -> World:
+        """Return a world at the start of this run, with the laws of an experiment read again."""
         with quiet():
-            fresh = experiment or self.experiment.reopened()
+            fresh = experiment.reopened()
             check_same(self.experiment.scenario, fresh.scenario, alike)
             scenario = carried(fresh.scenario, self.world.simulation.declared)
             options = self.world.recorder.options
@@ -175,14 +181,6 @@ def options_of(world: World, done: int | None = None) -> dict[str, Any]:
         if isinstance(each, Change):
             options.update(each.options)
     return options
-
-
-def _same(before: World, world: World, row: int) -> bool:
-    """Return whether all bodies of a world are where they were at a row."""
-    poses = before.pose, before.prop_pose
-    if row < before.iteration:
-        poses = before.history.pose[row], before.history.prop_pose[row]
-    return all(map(np.array_equal, (world.pose, world.prop_pose), poses))
 
 
 def _redo(world: World, interventions: Sequence[Intervention]) -> None:

@@ -41,9 +41,10 @@ class Timeline:
 
     watchers: called at each control step. log: writes each row of the present branch to a file.
 
-    row: the present one. experiment: its laws, as its file was last read, its options, and its
-    scenario at the start. others: the branches that can be shown, of this run and of earlier ones
-    that hands changed; the next one first. remark: a warning about the last way back, or empty.
+    branch: the present one. row: that is looked at. experiment: its laws, as its file was last
+    read, its options, and its scenario at the start. others: the branches that can be shown, of
+    this run and of earlier ones that hands changed; the next one first. remark: a warning about the
+    last way back, or empty.
     """
 
     def __init__(
@@ -57,7 +58,7 @@ class Timeline:
         self._seen: tuple[World, int, Record] | None = None
         self._begin(experiment)
         with suppress(LawError):  # of a sensor at the start: it is kept as `error`
-            self._observe()
+            self.world.observe()
 
     def restart(self, experiment: Experiment | None = None) -> None:
         """Start again, with the experiment as its file is now, or as given.
@@ -65,17 +66,17 @@ class Timeline:
         A run in which hands did something is kept, with its branches, among the `others`.
         """
         again = self.experiment.reopened() if experiment is None else experiment
-        before = [self._branch] if self.touched else []
+        before = [self.branch] if self.touched else []
         self._begin(again)
         self.others = before + self.others
         self._forget(again)
-        self._observe()
+        self.world.observe()
 
     def _begin(self, experiment: Experiment) -> None:
         """Begin a run of an experiment whose laws have not been asked yet."""
         world = open_world(experiment, self._watchers)
         self.row, self.remark, self.experiment = 0, "", experiment
-        self._branch = Branch(world, experiment, [(object(), 0)])
+        self.branch = Branch(world, experiment, [(object(), 0)])
         self._write()
 
     # -- the present row -------------------------------------------------------------------------
@@ -83,7 +84,7 @@ class Timeline:
     @property
     def world(self) -> World:
         """The world of the present branch, which is at its newest row."""
-        return self._branch.world
+        return self.branch.world
 
     @property
     def newest(self) -> int:
@@ -118,11 +119,6 @@ class Timeline:
         return self.row == self.newest and self.world.over
 
     @property
-    def _has_come_to_its_end(self) -> bool:
-        """Whether it is over, and was not broken off."""
-        return self.over and self.world.finished
-
-    @property
     def error(self) -> LawError | None:
         """The error of a law, sensor or add-on at the newest row, or None."""
         return self.world.simulation.error
@@ -133,13 +129,13 @@ class Timeline:
 
         Where a run is not over, it says that the window was closed.
         """
-        others = tuple(_closed(each.world) for each in self.others)
-        return replace(_closed(self.world), branches=others)
-
-    @property
-    def options(self) -> dict[str, Any]:
-        """The options that hold at the newest row of the present branch, by name."""
-        return options_of(self.world)
+        first, *others = (
+            each.world.record
+            if each.world.over
+            else replace(each.world.record, over_message="The window was closed")
+            for each in (self.branch, *self.others)
+        )
+        return replace(first, branches=tuple(others))
 
     @property
     def touched(self) -> bool:
@@ -149,7 +145,7 @@ class Timeline:
     @property
     def changed(self) -> bool:
         """Whether hands did anything in this run or in one of the `others`."""
-        return any(each.world.operator.log for each in (self._branch, *self.others))
+        return any(each.world.operator.log for each in (self.branch, *self.others))
 
     @property
     def recorded(self) -> Record:
@@ -170,10 +166,10 @@ class Timeline:
             self.row += 1
         elif not self.world.over:
             self.world.step()
-            self._branch.keep()
+            self.branch.keep()
             self.row = self.newest
             self._write()
-            self._observe()
+            self.world.observe()
 
     def _write(self, same: int = 0) -> None:
         """Let the log write the new rows. same: the number of rows that it has already.
@@ -192,66 +188,54 @@ class Timeline:
         """Look at a row, or the nearest one that there is."""
         self.row = min(max(row, 0), self.newest)
 
-    def _observe(self) -> None:
-        """Read the sensors for the present instant."""
-        if not self.world.over:
-            self.world.observe()
-
     # -- branches -----------------------------------------------------------------------------
 
     @property
     def branches(self) -> list[Branch]:
         """Those of the others that are of this run, the one left longest ago first."""
-        return [each for each in self.others if each.parts[0] == self._branch.parts[0]]
-
-    def parted(self, other: Branch) -> int:
-        """Return the row up to which another branch is the same as the present one."""
-        return self._branch.common(other)
+        return [each for each in self.others if each.parts[0] == self.branch.parts[0]]
 
     @property
     def needs_way_back(self) -> bool:
         """Whether a world has to be made again before something can be changed at this row."""
         return self.row < self.newest or self.world.over
 
-    def change(self, act: Callable[[World], None], progress: Progress = lambda _: True) -> None:
+    def change(
+        self,
+        act: Callable[[World], None],
+        progress: Progress = lambda _: True,
+        experiment: Experiment | None = None,
+    ) -> None:
         """Do something to the world at the present row; in the past, to one that is as it was.
 
         That goes on, and the rows after it become a branch. progress: called with the share of the
         way back that is done; if it returns False, nothing changes. Nor does it where an InputError
-        is raised, by `act` or because the world does not become the same again.
-        """
-        self._change(self.experiment, act, progress)
-
-    def _change(
-        self, experiment: Experiment, act: Callable[[World], None], progress: Progress
-    ) -> None:
-        """Do so, in a world that goes on with an experiment.
-
-        Other laws are asked along all rows, while the robots do what they did: so the laws remember
-        the run, and going back stays exact.
+        is raised, by `act` or because the world does not become the same again. experiment: with
+        which it goes on; None: the present one. Other laws are asked along all rows, while the
+        robots do what they did: so they remember the run, and going back stays exact.
         """
         self.remark = ""
-        branch, before = self._branch, self._branch.experiment
-        decides = experiment is before or experiment.decides_as(before)
-        if self.needs_way_back or not decides:
-            branch = branch.off(self.row, progress, None if decides else experiment)
+        branch, before, after = self.branch, self.branch.experiment, experiment or self.experiment
+        if self.needs_way_back or not branch.decides_as(after):
+            branch = branch.off(self.row, progress, after)
             branch.world.operator.let_go()
         world, held = branch.world, options_of(branch.world)
-        if experiment is not before or held != experiment.options:  # set later than this row
+        if after is not before or held != after.options:  # which were set later than this row
             before = before if held == before.options else before.with_options(held)
-            wanted = merged(before.scenario, experiment.scenario, world.scenario)
-            made = {k: v for k, v in experiment.options.items() if k not in held or held[k] != v}
+            wanted = merged(before.scenario, after.scenario, world.scenario)
+            made = {k: v for k, v in after.options.items() if k not in held or held[k] != v}
             if self.row or wanted != world.scenario or made:
                 world.change(wanted, world.control, options=made)  # so the record tells of it
         act(world)
-        self._adopt(branch, experiment)
+        self._adopt(branch, after)
 
     def within(self, progress: Progress = lambda _: True) -> list[Frame]:
         """Return the moments within the control step that follows the present row.
 
         See `mars2d.world.moments`. Nothing is recorded. Raises InputError as `change` does.
         """
-        world, known = self._branch.off(self.row, progress).world, self.row < self.newest
+        world = self.branch.off(self.row, progress, self.branch.experiment).world
+        known = self.row < self.newest
         command = self.world.history.command[self.row] if known else None
         return moments_of(world, self.frame, command)
 
@@ -270,8 +254,7 @@ class Timeline:
         experiment, held = self.experiment, options_of(self.world, done)
         if held != experiment.options:
             experiment = experiment.with_options(held)
-        laws = None if experiment is self._branch.experiment else experiment
-        branch = self._branch.off(log[done].row, progress, laws, done)
+        branch = self.branch.off(log[done].row, progress, experiment, done)
         branch.world.operator.let_go()
         self._adopt(branch, experiment)
         return log[done]
@@ -301,14 +284,14 @@ class Timeline:
 
     def _needs_start(self, experiment: Experiment) -> str:
         """Return the reason why the run can't go on with other parameters, or ""."""
-        if self._has_come_to_its_end:
+        if self.over and self.world.finished:
             return "the run is over"
-        moved = (f"{name} starts elsewhere" for name in self.moved(experiment))
-        return self.needs_start(experiment) or next(moved, "")
+        moved = [f"{name} starts elsewhere" for name in self.moved(experiment)]
+        return next(filter(None, [self.needs_start(experiment), *moved]), "")
 
     def moved(self, experiment: Experiment) -> list[str]:
         """Return the names of bodies that start elsewhere in an experiment that can be taken."""
-        pairs = zip(self.experiment.scenario.bodies, experiment.scenario.bodies, strict=True)
+        pairs = zip(self.experiment.scenario.bodies, experiment.scenario.bodies, strict=False)
         return [str(after.name) for before, after in pairs if before.pose != after.pose]
 
     def needs_start(self, experiment: Experiment) -> str:
@@ -322,11 +305,11 @@ class Timeline:
         nothing, where a new start is needed, and where a law fails on the way.
         """
         check_same(self.experiment.scenario, experiment.scenario, alike)
-        if self._has_come_to_its_end:
+        if self.over and self.world.finished:
             self.experiment = experiment
             self._forget(experiment)
             return "in effect where you go back and change something; R runs it from the start"
-        self._change(experiment, lambda _: None, progress)
+        self.change(lambda _: None, progress, experiment)
         return "in effect from now on; R runs it from the start"
 
     def _adopt(self, branch: Branch, experiment: Experiment) -> None:
@@ -334,12 +317,12 @@ class Timeline:
 
         It does not where it has the same rows, unless they ended as they should.
         """
-        before, row = self._branch, branch.world.iteration
+        before, row = self.branch, branch.world.iteration
         branch.experiment = self.experiment = experiment
         if branch is not before:
             if row < before.world.iteration or before.world.finished:
                 self.others.append(before)
-            self._branch, self.row, self.remark = branch, row, branch.doubt
+            self.branch, self.row, self.remark = branch, row, branch.doubt
             before.snapshots = {}  # they take memory
             branch.world.watch = watch_by(self._watchers)
             self._write(row)
@@ -347,25 +330,18 @@ class Timeline:
 
     def _forget(self, experiment: Experiment) -> None:
         """Let branches whose laws are of other versions of the files be repeated with these."""
-        for each in (self._branch, *self.others):
+        for each in (self.branch, *self.others):
             if each.experiment.source.written != experiment.source.written:
                 each.since, each.snapshots = NEVER, {}
 
     def show(self, other: Branch) -> None:
         """Go to one of the others, at the same row if it has it."""
-        before, common = self._branch, self.parted(other)
+        before, common = self.branch, self.branch.common(other)
         if other.experiment is before.experiment:
             other.snapshots = before.upto(common)
         before.snapshots = {}
         self.others.remove(other)
         self.others.append(before)
-        self._branch, self.experiment = other, other.experiment
+        self.branch, self.experiment = other, other.experiment
         self._write(common)
         self.go(self.row)
-
-
-def _closed(world: World) -> Record:
-    """Return the record of a world, which says that the window was closed if it was not over."""
-    return (
-        world.record if world.over else replace(world.record, over_message="The window was closed")
-    )

@@ -202,7 +202,7 @@ def test_a_world_goes_on_from_the_last_snapshot_and_repeats_only_what_follows():
         assert timeline.remark == ""
     finish(timeline)
     assert timeline.record.digest == expected.digest
-    assert len(timeline._branch.snapshots) <= MOST
+    assert len(timeline.branch.snapshots) <= MOST
     timeline.go(300)
     Noting.steps.clear()
     assert timeline.set({"robots.robot0.mass": 2.0}) == ""
@@ -313,8 +313,8 @@ def test_a_branch_of_a_branch_and_back(memory):
     timeline.change(lambda w: w.operator.place(1, (4.0, -4.0, 0.0)))
     run_to(timeline, 140)
     second, first = timeline.world, timeline.branches[1]
-    assert timeline.parted(first) == 120
-    assert timeline.parted(timeline.branches[0]) == 80
+    assert timeline.branch.common(first) == 120
+    assert timeline.branch.common(timeline.branches[0]) == 80
     timeline.show(timeline.others[0])
     assert timeline.record.digest == expected.digest
     assert timeline.row == 140
