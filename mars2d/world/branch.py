@@ -190,4 +190,4 @@ def _redo(world: World, interventions: Sequence[Intervention]) -> None:
         if isinstance(each, Change):
             scenario = carried(world.scenario, each.scenario, each.given)
             again = replace(each, scenario=scenario, control=world.control)
-        world.operator.redo(again)
+        world.operator.do(again)

@@ -14,7 +14,7 @@ from mars2d.core.errors import InputError, LawError
 from mars2d.record.columns import DiskError
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import Intervention, of_one_hand
-from mars2d.scenario.changes import alike, check_same, merged, needs_start
+from mars2d.scenario.changes import alike, check_same, hindrances, merged
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.branch import NEVER, Branch, Progress, options_of
@@ -296,7 +296,7 @@ class Timeline:
 
     def needs_start(self, experiment: Experiment) -> str:
         """Return the reason why `take` can't go on with an experiment, or ""."""
-        return needs_start(self.experiment.scenario, experiment.scenario, alike)
+        return next(hindrances(self.experiment.scenario, experiment.scenario, alike), "")
 
     def take(self, experiment: Experiment, progress: Progress = lambda _: True) -> str:
         """Go on from the present row with an experiment read again; return the effect, in words.

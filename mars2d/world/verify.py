@@ -65,7 +65,7 @@ def rerun(record: Record, progress: Callable[[int], None] | None = None) -> Depa
     departure, last = None, len(record) - 1
     for row, command in enumerate(record.command):
         for intervention in done[row]:
-            world.operator.redo(intervention)
+            world.operator.do(intervention)
         departure = _departs(row, world, record)
         if departure is not None:
             last = row - 1

@@ -240,7 +240,7 @@ def test_what_makes_no_sense_is_refused_and_nothing_happens(act, words):
     with pytest.raises(InputError, match=words):
         act(world.operator)
     assert world.operator.log == []
-    assert world.operator.driven == ()
+    assert world.operator.driven == {}
     world.step()
 
 
