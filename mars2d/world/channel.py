@@ -74,8 +74,7 @@ class Channel:
         self._sent: list[_Sent] = []
         self._free: dict[int, float] = defaultdict(float)  # when a sender has sent all, s
         self._coming: dict[int, list[tuple[_Letter, Int]]] = {}  # by the iteration of arrival
-        self._arrived: list[tuple[_Letter, Int]] = []  # letters and their receivers
-        self._letters: list[list[_Letter]] | None = None  # the same by receiver, once asked for
+        self._letters: dict[int, list[_Letter]] = {}  # that have arrived, by receiver
         self._inbox: dict[int, tuple[Message, ...]] = {}  # as far as it was asked for
         self._links: dict[tuple[int, int], tuple[float, bool]] = {}  # when known as bad, s
         self._hearers: tuple[int, list[Int]] = (-1, [])
@@ -83,19 +82,17 @@ class Channel:
     def inbox(self, robot: int) -> tuple[Message, ...]:
         """Return the messages that have arrived for a robot at the present control step."""
         if robot not in self._inbox:
-            if self._letters is None:
-                self._letters = [[] for _ in self._names]
-                for letter, receivers in self._arrived:
-                    for receiver in receivers.tolist():
-                        self._letters[receiver].append(letter)
-            self._inbox[robot] = tuple([letter.opened() for letter in self._letters[robot]])
+            letters = self._letters.get(robot, ())
+            self._inbox[robot] = tuple([letter.opened() for letter in letters])
         return self._inbox[robot]
 
     def deliver(self) -> None:
         """Fill the inboxes with the messages that arrive now; empty all others."""
         coming = self._coming.pop(self._world.iteration, [])
-        self._arrived = sorted(coming, key=lambda item: item[0].sender)
-        self._letters, self._inbox = None, {}
+        self._letters, self._inbox = defaultdict(list), {}
+        for letter, receivers in sorted(coming, key=lambda item: item[0].sender):
+            for receiver in receivers.tolist():
+                self._letters[receiver].append(letter)
 
     def send(self, sender: int, content: Any, to: Any) -> None:
         """Take a message of a robot. Raises LawError if it can't be recorded, or for a wrong `to`.

@@ -136,12 +136,10 @@ class Operator:
 
     def _place(self, place: Place) -> None:
         world, body = self._world, place.body
-        fault = fixed(world.scenario, body)
-        if fault:
+        if fault := fixed(world.scenario, body):
             raise InputError(fault)
         world.observe()
-        fault = obstruction(world.scenario, self._poses({body: place.pose}), body)
-        if fault:
+        if fault := obstruction(world.scenario, self._poses({body: place.pose}), body):
             name = world.scenario.bodies[body].name
             raise InputError(f"{name} can't be put there: it would {fault}")
         world.move({body: place.pose})
@@ -217,8 +215,7 @@ class Operator:
         """Return the index of a body that forces can move, and a point of it."""
         scenario = self._world.scenario
         index = scenario.body_index_of(call, body)
-        fault = forceless(scenario, index)
-        if fault:
+        if fault := forceless(scenario, index):
             raise InputError(fault)
         point = checks.point(f"{call}(grip)", grip)
         center, radius = scenario.bodies[index].shape.bound

@@ -43,8 +43,7 @@ class Timeline:
 
     branch: the present one. row: that is looked at. experiment: its laws, as its file was last
     read, its options, and its scenario at the start. others: the branches that can be shown, of
-    this run and of earlier ones that hands changed; the next one first. remark: a warning about the
-    last way back, or empty.
+    this run and of earlier ones that hands changed; the next one first.
     """
 
     def __init__(
@@ -75,7 +74,7 @@ class Timeline:
     def _begin(self, experiment: Experiment) -> None:
         """Begin a run of an experiment whose laws have not been asked yet."""
         world = open_world(experiment, self._watchers)
-        self.row, self.remark, self.experiment = 0, "", experiment
+        self.row, self.experiment = 0, experiment
         self.branch = Branch(world, experiment, [(object(), 0)])
         self._write()
 
@@ -214,7 +213,6 @@ class Timeline:
         which it goes on; None: the present one. Other laws are asked along all rows, while the
         robots do what they did: so they remember the run, and going back stays exact.
         """
-        self.remark = ""
         branch, before, after = self.branch, self.branch.experiment, experiment or self.experiment
         if self.needs_way_back or not branch.decides_as(after):
             branch = branch.off(self.row, progress, after)
@@ -322,7 +320,7 @@ class Timeline:
         if branch is not before:
             if row < before.world.iteration or before.world.finished:
                 self.others.append(before)
-            self.branch, self.row, self.remark = branch, row, branch.doubt
+            self.branch, self.row = branch, row
             before.snapshots = {}  # they take memory
             branch.world.watch = watch_by(self._watchers)
             self._write(row)

@@ -80,7 +80,7 @@ def test_an_example_gone_back_in_is_the_same_to_the_bit(name):
     for row in (last // 2, last // 3, 2 * last // 3, 0, last - 1):
         timeline.go(row)
         world = branch(timeline)
-        assert timeline.remark == ""
+        assert timeline.branch.doubt == ""
         assert world.iteration == row
         assert np.array_equal(world.pose, expected.pose[row])
         finish(timeline)
@@ -165,7 +165,7 @@ def test_memory_of_every_kind_is_rebuilt(memory):
     for row in (100, 199, 0):
         timeline.go(row)
         branch(timeline)
-        assert timeline.remark == ""
+        assert timeline.branch.doubt == ""
         finish(timeline)
         assert timeline.record.digest == expected.digest
 
@@ -199,7 +199,7 @@ def test_a_world_goes_on_from_the_last_snapshot_and_repeats_only_what_follows():
         Noting.steps.clear()
         branch(timeline)
         assert Noting.steps == [*range(64, row + 1)]
-        assert timeline.remark == ""
+        assert timeline.branch.doubt == ""
     finish(timeline)
     assert timeline.record.digest == expected.digest
     assert len(timeline.branch.snapshots) <= MOST
@@ -245,7 +245,7 @@ def test_what_hands_did_is_done_again(memory, row):
     timeline.go(row)
     shown = timeline.frame.pose
     branch(timeline)
-    assert timeline.remark == ""
+    assert timeline.branch.doubt == ""
     assert np.array_equal(timeline.world.pose, shown)
     assert np.array_equal(timeline.world.history.pose, before.pose[:row])
     assert timeline.world.scenario.addons == before.scenario_at(row).addons
@@ -327,7 +327,7 @@ def test_a_branch_of_a_branch_and_back(memory):
     timeline.go(130)
     branch(timeline)
     assert np.array_equal(timeline.world.pose, second.history.pose[130])
-    assert timeline.remark == ""
+    assert timeline.branch.doubt == ""
 
 
 def test_a_world_at_its_start_and_one_that_is_over_can_be_changed(written):
@@ -421,7 +421,7 @@ scenario = Scenario(robots=[Robot(name="red", controller=lambda robot: (0.1, {so
     poses = timeline.world.history.pose.copy()
     timeline.go(40)
     branch(timeline)
-    assert "the law of red gave another command at step 0" in timeline.remark
+    assert "the law of red gave another command at step 0" in timeline.branch.doubt
     assert np.array_equal(timeline.world.history.pose, poses[:40])
     assert len(timeline.branches) == 1
 
@@ -500,7 +500,7 @@ def test_laws_read_again_are_in_effect_from_the_present_row(written):
     assert (command[20:] == (0.1, 0.5)).all()
     timeline.go(25)
     branch(timeline)
-    assert timeline.remark == ""
+    assert timeline.branch.doubt == ""
     run_to(timeline, 30)
     assert np.array_equal(timeline.world.history.command[:, :, 0], command)
 
@@ -521,7 +521,7 @@ def test_in_the_past_they_make_a_branch(written):
     assert timeline.world.history.command[-1].ravel().tolist() == [0.2, 0.0]  # of its own law
     timeline.go(5)
     branch(timeline)
-    assert timeline.remark == ""  # no wonder that the new law asks for something else
+    assert timeline.branch.doubt == ""  # no wonder that the new law asks for something else
     timeline.advance()
     assert timeline.world.history.command[-1].ravel().tolist() == [0.1, 0.5]
 
@@ -539,7 +539,7 @@ def test_what_is_read_at_the_end_holds_where_something_is_changed(written):
     assert timeline.scenario.obstacles == (((4.0, -2.0), (4.0, 1.0)),)
     timeline.advance()
     assert timeline.world.history.command[-1].ravel().tolist() == [0.1, 0.5]
-    assert timeline.remark == ""
+    assert timeline.branch.doubt == ""
 
 
 def test_laws_read_again_have_watched_what_was_before(written):
@@ -663,6 +663,6 @@ def test_an_earlier_run_takes_the_laws_of_now_without_a_doubt(written):
     timeline.show(timeline.others[0])
     timeline.go(10)
     branch(timeline)
-    assert timeline.remark == ""
+    assert timeline.branch.doubt == ""
     timeline.advance()
     assert timeline.world.history.command[-1].ravel().tolist() == [0.1, 0.5]

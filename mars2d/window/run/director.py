@@ -43,17 +43,17 @@ class Director:
     @contextmanager
     def _showing(self, timeline: Timeline) -> Iterator[None]:
         """Show what is done to the run meanwhile; say that a branch begins, and a doubt."""
-        goes_on, others = not timeline.needs_way_back, len(timeline.others)
+        back, branch, others = timeline.needs_way_back, timeline.branch, len(timeline.others)
         try:
             yield
         finally:
             self._player.error = timeline.error
-            if not (goes_on and self._player.playing and timeline.newest):
+            if back or not (self._player.playing and timeline.newest):
                 self._player.settle()  # otherwise time goes on from where it is
         if timeline.branches and len(timeline.others) > others:
             self._notes.say("a new branch begins here; B shows what was run before")
-        if timeline.remark:
-            self._notes.say(timeline.remark, "warning")
+        if timeline.branch is not branch and timeline.branch.doubt:
+            self._notes.say(timeline.branch.doubt, "warning")
 
     def _do(self, act: Callable[[Timeline], object]) -> bool:
         """Do something to the run, or say why it can't be done; return whether it was."""
