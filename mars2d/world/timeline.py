@@ -14,7 +14,7 @@ from mars2d.core.errors import InputError, LawError
 from mars2d.record.columns import DiskError
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import Intervention, of_one_hand
-from mars2d.scenario.changes import alike, check_same, hindrances, merged
+from mars2d.scenario.changes import alike, hindrances, merged
 from mars2d.scenario.experiment import Experiment
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.branch import NEVER, Branch, Progress, options_of
@@ -272,43 +272,43 @@ class Timeline:
         values.
         """
         after = self.experiment.with_options({**self.experiment.options, **options})
-        begun = self.newest > 0 or self.touched
-        reason = self._needs_start(after) if begun else ""
+        begun, reason = self.newest > 0 or self.touched, ""
+        if begun:
+            moved = [f"{name} starts elsewhere" for name in self._moved(after)]
+            ended = ["the run is over"] * (self.over and self.world.finished)
+            reason = next(filter(None, [*ended, self._needs_start(after), *moved]), "")
         if begun and not reason:
-            self.take(after, progress)
+            self.change(lambda _: None, progress, after)
         elif restart or not reason:
             self.restart(after)
         return reason
 
     def _needs_start(self, experiment: Experiment) -> str:
-        """Return the reason why the run can't go on with other parameters, or ""."""
-        if self.over and self.world.finished:
-            return "the run is over"
-        moved = [f"{name} starts elsewhere" for name in self.moved(experiment)]
-        return next(filter(None, [self.needs_start(experiment), *moved]), "")
+        """Return the reason why the run can't go on with an experiment, or ""."""
+        return next(hindrances(self.experiment.scenario, experiment.scenario, alike), "")
 
-    def moved(self, experiment: Experiment) -> list[str]:
-        """Return the names of bodies that start elsewhere in an experiment that can be taken."""
+    def _moved(self, experiment: Experiment) -> list[str]:
+        """Return the names of bodies that start elsewhere in an experiment."""
         pairs = zip(self.experiment.scenario.bodies, experiment.scenario.bodies, strict=False)
         return [str(after.name) for before, after in pairs if before.pose != after.pose]
 
-    def needs_start(self, experiment: Experiment) -> str:
-        """Return the reason why `take` can't go on with an experiment, or ""."""
-        return next(hindrances(self.experiment.scenario, experiment.scenario, alike), "")
-
     def take(self, experiment: Experiment, progress: Progress = lambda _: True) -> str:
-        """Go on from the present row with an experiment read again; return the effect, in words.
+        """Go on from the present row with an experiment read again, or start again if need be.
 
-        At the end it holds for what is changed from then on. Raises InputError, and changes
-        nothing, where a new start is needed, and where a law fails on the way.
+        At the end it holds for what is changed from then on. Returns the effect in words. Raises
+        InputError, and changes nothing, where a law fails on the way.
         """
-        check_same(self.experiment.scenario, experiment.scenario, alike)
+        if reason := self._needs_start(experiment):
+            self.restart(experiment)
+            return f"started again: {reason}"
+        moved, effect = self._moved(experiment), "in effect from now on"
         if self.over and self.world.finished:
-            self.experiment = experiment
+            self.experiment, effect = experiment, "in effect where you go back and change something"
             self._forget(experiment)
-            return "in effect where you go back and change something; R runs it from the start"
-        self.change(lambda _: None, progress, experiment)
-        return "in effect from now on; R runs it from the start"
+        else:
+            self.change(lambda _: None, progress, experiment)
+        there = f"R starts {', '.join(moved)} from there; all else is " if moved else ""
+        return f"{there}{effect}; R runs it from the start"
 
     def _adopt(self, branch: Branch, experiment: Experiment) -> None:
         """Go on with a branch; the one before becomes another one.

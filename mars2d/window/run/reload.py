@@ -73,21 +73,13 @@ class Reload:
 
     def _take(self, name: str) -> Reloaded:
         """Open the experiment again, and continue with it; name: of the saved files."""
-        timeline = self._timeline
         with files_read() as files:
             try:
                 experiment = self._experiment.reopened()
-                if reason := timeline.needs_start(experiment):
-                    timeline.restart(experiment)
-                    words = f"started again: {reason}"
-                else:
-                    moved = timeline.moved(experiment)
-                    words = timeline.take(experiment, self._progress)
-                    if moved:
-                        words = f"R starts {', '.join(moved)} from there; all else is {words}"
+                words = self._timeline.take(experiment, self._progress)
             except Mars2dError as error:
                 self._watch(_written(files) | self._read)
-                goes_on = "" if timeline.over else "\nthe old law goes on"
+                goes_on = "" if self._timeline.over else "\nthe old law goes on"
                 return Reloaded(f"{error}{goes_on}", error)
         self._watch(dict(experiment.source.written))
         return Reloaded(f"{name}: {words}")
