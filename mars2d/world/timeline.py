@@ -68,7 +68,7 @@ class Timeline:
         before = [self.branch] if self.touched else []
         self._begin(again)
         self.others = before + self.others
-        self._forget(again)
+        self._forget()
         self.world.observe()
 
     def _begin(self, experiment: Experiment) -> None:
@@ -304,7 +304,7 @@ class Timeline:
         moved, effect = self._moved(experiment), "in effect from now on"
         if self.over and self.world.finished:
             self.experiment, effect = experiment, "in effect where you go back and change something"
-            self._forget(experiment)
+            self._forget()
         else:
             self.change(lambda _: None, progress, experiment)
         there = f"R starts {', '.join(moved)} from there; all else is " if moved else ""
@@ -321,16 +321,17 @@ class Timeline:
             if row < before.world.iteration or before.world.finished:
                 self.others.append(before)
             self.branch, self.row = branch, row
-            before.snapshots = {}  # they take memory
             branch.world.watch = watch_by(self._watchers)
             self._write(row)
-        self._forget(experiment)
+        self._forget()
 
-    def _forget(self, experiment: Experiment) -> None:
-        """Let branches whose laws are of other versions of the files be repeated with these."""
+    def _forget(self) -> None:
+        """Drop snapshots of other branches, and let those of older files be repeated with these."""
         for each in (self.branch, *self.others):
-            if each.experiment.source.written != experiment.source.written:
-                each.since, each.snapshots = NEVER, {}
+            older = each.experiment.source.written != self.experiment.source.written
+            each.since = NEVER if older else each.since
+            if older or each is not self.branch:
+                each.snapshots = {}
 
     def show(self, other: Branch) -> None:
         """Go to one of the others, at the same row if it has it."""

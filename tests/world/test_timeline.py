@@ -208,6 +208,10 @@ def test_a_world_goes_on_from_the_last_snapshot_and_repeats_only_what_follows():
     assert timeline.set({"robots.robot0.mass": 2.0}) == ""
     assert Noting.steps[0] == 256, "a slider whose laws are the same needs no new start either"
     assert timeline.world.scenario.robots[0].mass == 2.0
+    assert timeline.branch.snapshots
+    timeline.restart()
+    assert len(timeline.others) == 4
+    assert not any(each.snapshots for each in timeline.others), "which take memory"
 
 
 # -- hands -----------------------------------------------------------------------------------------
