@@ -40,14 +40,12 @@ def run_to(timeline, row):
 
 @pytest.fixture
 def written(tmp_path):
-    """Write an experiment's file and return a timeline of it, with what it is run by."""
+    """Write an experiment's file, and others beside it; return its path."""
 
-    def write(text, name="walk.py", **others):
-        for other, content in others.items():
-            (tmp_path / f"{other}.py").write_text(content)
-        path = tmp_path / name
-        path.write_text(text)
-        return path
+    def write(text, **others):
+        for name, content in {"walk": text, **others}.items():
+            (tmp_path / f"{name}.py").write_text(content)
+        return tmp_path / "walk.py"
 
     return write
 
