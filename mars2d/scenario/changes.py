@@ -153,10 +153,7 @@ def alike(first: Any, second: Any) -> bool:
     if first is second:
         return True
     if isinstance(first, Description) and isinstance(second, Description):
-        return type(first).__qualname__ == type(second).__qualname__ and all(
-            hasattr(second, f.name) and alike(getattr(first, f.name), getattr(second, f.name))
-            for f in dataclasses.fields(first)
-        )
+        return _same_kind(first, second) and not any(_differing(first, second, alike))
     if isinstance(first, (tuple, list)) and isinstance(second, (tuple, list)):
         return first == second or (len(first) == len(second) and all(map(alike, first, second)))
     if callable(first) and callable(second):

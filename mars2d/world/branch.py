@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from collections import defaultdict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from time import perf_counter
@@ -14,9 +13,10 @@ from numpy.typing import NDArray
 
 from mars2d.core.errors import InputError
 from mars2d.core.usercode import keeps_nothing, quiet
-from mars2d.record.interventions import Change, Intervention, Steer
+from mars2d.record.interventions import Change, Steer
 from mars2d.scenario.changes import alike, carried, check_same
 from mars2d.scenario.experiment import Experiment
+from mars2d.scenario.scenario import Scenario
 from mars2d.world.fork import forked
 from mars2d.world.loop import open_world
 from mars2d.world.simulation import REST, Simulation
@@ -141,10 +141,12 @@ class Branch:
         since: the row from which on the laws must ask for the same commands again. done: see `off`.
         """
         world, commands = self.world, other.world.history.command
-        log, hands = other.world.operator.log, defaultdict[int, list[Intervention]](list)
-        for each in log[:done]:
-            hands[each.row].append(each)
+        log = other.world.operator.log[:done]
         driven = {each.robot for each in log if isinstance(each, Steer)}
+
+        def scenario_of(change: Change) -> Scenario:
+            return carried(world.scenario, change.scenario, change.given)
+
         begun, due = world.iteration, perf_counter() + SLICE
         with quiet():
             for k in range(begun, row):
@@ -154,7 +156,7 @@ class Branch:
                     due = perf_counter() + SLICE
                 if world.over:
                     raise InputError(f"run again, it ended before: {world.over_message}")
-                _redo(world, hands[k])
+                world.operator.redo(log, scenario_of)
                 asked = world.simulation.follow(commands[k])
                 others = {*np.flatnonzero((asked != commands[k]).any(axis=0)).tolist()} - driven
                 if k >= since and others and not self.doubt:
@@ -166,7 +168,7 @@ class Branch:
                         "different"
                     )
                 self.keep()
-            _redo(world, hands[row])
+            world.operator.redo(log, scenario_of)
             world.observe()
         if world.over:
             raise InputError(
@@ -181,13 +183,3 @@ def options_of(world: World, done: int | None = None) -> dict[str, Any]:
         if isinstance(each, Change):
             options.update(each.options)
     return options
-
-
-def _redo(world: World, interventions: Sequence[Intervention]) -> None:
-    """Repeat what was done by hand at the present row of a world."""
-    for each in interventions:
-        again = each
-        if isinstance(each, Change):
-            scenario = carried(world.scenario, each.scenario, each.given)
-            again = replace(each, scenario=scenario, control=world.control)
-        world.operator.do(again)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from math import ceil, dist, sqrt
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -67,8 +69,21 @@ class Operator:
         self._pushes: list[Push] = []
         self._force: dict[int, float] = {}
 
+    def redo(self, log: Sequence[Intervention], scenario_of: Callable[[Change], Scenario]) -> None:
+        """Do again what the log of another world of this run says of the present row.
+
+        scenario_of: returns the scenario of a change, with laws that fit this world.
+        """
+        row, by_row = self._world.iteration, attrgetter("row")
+        for each in log[bisect_left(log, row, key=by_row) : bisect_right(log, row, key=by_row)]:
+            again = each
+            if isinstance(each, Change):
+                control = self._world.laws.function
+                again = replace(each, scenario=scenario_of(each), control=control)
+            self.do(again)
+
     def do(self, what: Intervention) -> None:
-        """Do something at this instant, as also its repetition in another world; log it."""
+        """Do something at this instant, and log it."""
         if isinstance(what, Pull):
             self._pull(what)
             return
@@ -278,8 +293,10 @@ class Operator:
             for push in pushes:
                 own, others = _pushed(push, float(poses[2, push.body])), loads.get(push.body)
                 loads[push.body] = own if others is None else _sum(own, others)
-            for body, load in loads.items():
-                self._load(engine, body, *load)
+            for body, (fx, fy, torque) in loads.items():
+                self._force[body] = norm(fx, fy)
+                if not engine.withstands(body, norm(fx, fy), abs(torque)):
+                    engine.pull(body, (fx, fy), torque)
             engine.drive(twist, h, time + k * h)
         engine.let_go()
 
@@ -292,12 +309,6 @@ class Operator:
         ]
         most += [norm(*push.force) / bodies[push.body].inertia.mass for push in pushes]
         return engine.step_under(max(most))
-
-    def _load(self, engine: Engine, body: int, fx: float, fy: float, torque: float) -> None:
-        """Let a force and a torque act on a body, unless it withstands them."""
-        self._force[body] = norm(fx, fy)
-        if not engine.withstands(body, norm(fx, fy), abs(torque)):
-            engine.pull(body, (fx, fy), torque)
 
     def _spring(self, pull: Pull, pose: Float, velocity: Float) -> Load:
         """Return the force [N] and the torque [N m] of a spring on a body at a pose (3,)."""
