@@ -334,8 +334,9 @@ class Timeline:
                 each.snapshots = {}
 
     def show(self, other: Branch) -> None:
-        """Go to one of the others, at the same row if it has it."""
+        """Go to one of the others, at the same row if it has it; of another run, at the newest."""
         before, common = self.branch, self.branch.common(other)
+        row = self.row if other in self.branches else other.world.iteration
         if other.experiment is before.experiment:
             other.snapshots = before.upto(common)
         before.snapshots = {}
@@ -343,4 +344,4 @@ class Timeline:
         self.others.append(before)
         self.branch, self.experiment = other, other.experiment
         self._write(common)
-        self.go(self.row)
+        self.go(row)

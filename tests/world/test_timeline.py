@@ -638,6 +638,7 @@ def test_a_run_that_hands_changed_is_kept_when_it_is_started_anew(memory):
     assert timeline.record.digest == simulated(memory).digest
     assert [len(branch) for branch in timeline.record.branches] == [80, 60]
     again = timeline.world
+    timeline.go(5)
     timeline.show(timeline.others[0])
     assert (timeline.world, timeline.branches, timeline.row) == (changed, [before], 80)
     shown = [changed]
