@@ -175,10 +175,9 @@ class Timeline:
 
         A DiskError ends the run.
         """
-        if self._log is None:
-            return
         try:
-            self._log.follow(self.world, same)
+            if self._log is not None:
+                self._log.follow(self.world, same)
         except DiskError as error:
             self.world.break_off(f"Error: {error}")
             raise

@@ -41,12 +41,6 @@ def centers(scene):
     return {shape.center for shape in scene.shapes if isinstance(shape, Circle)}
 
 
-def test_without_branches_there_are_none():
-    timeline = timeline_of()
-    run_to(timeline, 5)
-    assert ghosts(timeline, timeline.frame).shapes == []
-
-
 def test_a_body_is_seen_where_it_was_and_how_it_got_there():
     timeline = branched()
     scene = ghosts(timeline, timeline.frame)
