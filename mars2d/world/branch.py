@@ -88,9 +88,10 @@ class Branch:
         """Return whether its laws are those of an experiment, as far as can be told."""
         return experiment is self.experiment or experiment.decides_as(self.experiment)
 
-    def upto(self, row: int) -> Snapshots:
-        """Return the snapshots up to a row."""
-        return {k: kept for k, kept in (self.snapshots or {}).items() if k <= row}
+    def upto(self, row: int) -> Snapshots | None:
+        """Return the snapshots up to a row; None if they can't be made."""
+        kept = self.snapshots
+        return None if kept is None else {k: each for k, each in kept.items() if k <= row}
 
     def off(
         self, row: int, progress: Progress, experiment: Experiment, done: int | None = None
@@ -167,7 +168,8 @@ class Branch:
                         "are not robot.rng. All moved as before, but what the law remembers may be "
                         "different"
                     )
-                self.keep()
+                if not begun:  # else those before are near enough
+                    self.keep()
             world.operator.redo(log, scenario_of)
             world.observe()
         if world.over:
