@@ -291,8 +291,9 @@ class Operator:
                 for body, pull in self.pulls.items()
             }
             for push in pushes:
-                own, others = _pushed(push, float(poses[2, push.body])), loads.get(push.body)
-                loads[push.body] = own if others is None else _sum(own, others)
+                fx, fy, torque = _pushed(push, float(poses[2, push.body]))
+                x, y, turning = loads.get(push.body, (0.0, 0.0, 0.0))
+                loads[push.body] = fx + x, fy + y, torque + turning
             for body, (fx, fy, torque) in loads.items():
                 self._force[body] = norm(fx, fy)
                 if not engine.withstands(body, norm(fx, fy), abs(torque)):
@@ -336,10 +337,6 @@ def _pushed(push: Push, theta: float) -> Load:
     (x, y), (fx, fy) = push.grip, push.force
     c, s = cosine_sine(theta)
     return fx, fy, (c * x - s * y) * fy - (s * x + c * y) * fx
-
-
-def _sum(one: Load, other: Load) -> Load:
-    return one[0] + other[0], one[1] + other[1], one[2] + other[2]
 
 
 def forceless(scenario: Scenario, body: int) -> str:
