@@ -41,12 +41,6 @@ def centers(scene):
     return {shape.center for shape in scene.shapes if isinstance(shape, Circle)}
 
 
-def test_without_branches_there_are_none():
-    timeline = timeline_of()
-    run_to(timeline, 5)
-    assert ghosts(timeline, timeline.frame).shapes == []
-
-
 def test_a_body_is_seen_where_it_was_and_how_it_got_there():
     timeline = branched()
     scene = ghosts(timeline, timeline.frame)
@@ -76,7 +70,7 @@ def test_from_the_other_branch_this_one_is_seen():
 
 def test_after_its_end_a_branch_stays_there_and_says_so():
     timeline = branched(newest=25)
-    timeline.branches[0].stop("enough")
+    timeline.branches[0].world.stop("enough")
     run_to(timeline, 60)
     scene = ghosts(timeline, timeline.frame)
     assert [x for x, _ in centers(scene)] == pytest.approx([2.5, 2.5])

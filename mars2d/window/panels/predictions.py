@@ -139,8 +139,8 @@ class Predictions(Panel):
         """Return what is to say about the run, and about values that could not be read."""
         timeline, reading = self._timeline, self.reading
         if timeline is not None and timeline.world.operator.log:
-            first = timeline.world.recorder.options
-            new = [f"{k} = {v:.6g}" for k, v in timeline.options.items() if first.get(k) != v]
+            first, now = timeline.world.recorder.options, timeline.experiment.options
+            new = [f"{k} = {v:.6g}" for k, v in now.items() if first.get(k) != v]
             again = f"R: again with {', '.join(new)}, and predict." if new else "R: again."
             return f"A hand has changed this run; the predictions are for one without. {again}"
         if not reading.predictions and reading.error is None:

@@ -93,7 +93,7 @@ class Controls:
         marks: dict[MarkKind, Sequence[int]] = {"collision": self._touched}
         marks["hand"] = sorted({each.row for each in done_in(source)})
         if isinstance(run, World) and isinstance(source, Timeline):
-            marks["branch"] = sorted({source.parted(other) for other in source.branches})
+            marks["branch"] = sorted({source.branch.common(other) for other in source.branches})
             marks["error"] = [run.iteration] if run.over and not run.finished else []
         return marks
 
