@@ -1,4 +1,4 @@
-"""Text in brackets, wrapped to a width, for TOML files."""
+"""Tables, lists and numbers as text for TOML files."""
 
 from __future__ import annotations
 
@@ -8,46 +8,42 @@ from typing import Any
 from mars2d.core.materials import Coefficient
 
 WIDTH = 100
-"""Columns of a line."""
+"""Columns of a line with a table or a list; a longer one takes several."""
 
 NONE = "none"
 """The text that stands for None."""
 
 
-Node = str | list["Node"]
-"""A value as text, or a list of values."""
+Node = str | list[Any] | dict[str, Any]
+"""A value as text, a list of values, or a table."""
 
 
-def laid_out(node: Node, before: str = "", indent: int = 0, width: int = WIDTH) -> str:
-    """Return a node as text: on one line if it fits, else broken after its opening bracket.
+def tables(table: dict[str, Any], path: str = "") -> list[str]:
+    """Return the lines of a table, and of those in it that fit in no line, below their headers.
 
-    before: what stands before it. indent: of its first and last line, columns. A list of tables has
-    one in a line, other lists as many items as fit. A line is longer than `width` if an item is.
-
-    >>> print(laid_out(["1.0", "2.0", "3.0"], "x = ", width=14))
-    x = [
-        1.0, 2.0,
-        3.0,
-    ]
+    path: its name and a full stop; empty for that of the whole file.
     """
-    whole = before + flat(node)
-    if isinstance(node, str) or indent + len(whole) < width:  # a comma may follow
-        return whole
-    lines, inside = list[str](), indent + 4
-    room = 0  # in the last line
-    for item in node:
-        text = laid_out(item, "", inside, width) + ","
-        if "\n" not in text and text[0] != "{" and len(text) < room:
-            lines[-1] += " " + text
-            room -= len(text) + 1
+    lines, below = list[str](), list[str]()
+    for name, value in table.items():
+        line, inner = f"{name} = {flat(value)}", list[Any]()
+        if isinstance(value, list) and any(isinstance(item, dict) for item in value):
+            inner, header = value, f"[[{path}{name}]]"
+        elif isinstance(value, dict) and (len(line) > WIDTH or ("{" in line and not path)):
+            inner, header = [value], f"[{path}{name}]"
+        elif isinstance(value, list) and len(line) > WIDTH:
+            lines += [f"{name} = [", *(f"    {flat(item)}," for item in value), "]"]
         else:
-            lines.append(" " * inside + text)
-            room = 0 if "\n" in text else width - inside - len(text)
-    return "\n".join([f"{before}[", *lines, " " * indent + "]"])
+            lines.append(line)
+        for item in inner:
+            below += ["", header, *tables(item, f"{path}{name}.")]
+    return lines + below
 
 
 def flat(node: Node) -> str:
-    """Return a node as text in one line."""
+    """Return a node as text in one line; a table of a type alone is its type."""
+    if isinstance(node, dict):
+        items = ", ".join(f"{name} = {flat(value)}" for name, value in node.items())
+        return flat(node["type"]) if [*node] == ["type"] else f"{{ {items} }}"
     return node if isinstance(node, str) else f"[{', '.join(map(flat, node))}]"
 
 

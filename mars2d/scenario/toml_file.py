@@ -23,7 +23,7 @@ from mars2d.scenario import serialize
 from mars2d.scenario.code_file import law_in, located
 from mars2d.scenario.controllers import Controller
 from mars2d.scenario.law_reference import Reference, seen_from
-from mars2d.scenario.pretty import NONE, WIDTH, Node, comment, flat, laid_out, plain, quoted
+from mars2d.scenario.pretty import NONE, Node, comment, plain, quoted, tables
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import Place
@@ -70,7 +70,7 @@ def save_scenario(
 
 
 class _Writer:
-    """Writes a scenario as the text of a file in a folder.
+    """Turns a scenario into the text of a file in a folder.
 
     missing: the parts that were left out.
     """
@@ -83,82 +83,56 @@ class _Writer:
         """Return the whole file."""
         kept, lost = serialize.without_code(scenario)
         self.missing += lost
-        head = [f"#:schema {SCHEMA_FILE}"]
-        head += [comment(f"A scenario of MARS2D. Run it: mars2d run {filename}")]
-        head += [comment(f"{serialize.LOST}: {name}") for name in lost]
-        team = [] if control is None else [self._law("control", control)]
-        if control is None and not any(robot.controller for robot in kept.robots):
-            team = [
-                '# control = "my_law.py:control"  # a law of the team; without one it stands still'
-            ]
-        return "\n".join([*head, "", f"format = {FORMAT}", *team, *self._table(kept, "")]) + "\n"
+        team = "" if control is None else self._law("control", control)
+        whole = {"format": plain(FORMAT), **({"control": team} if team else {})}
+        lines = tables(whole | self._table(kept, Place(Scenario)))
+        if not team and not any(robot.controller for robot in kept.robots):
+            hint = "a law of the team; without one it stands still"
+            lines.insert(1, f'# control = "my_law.py:control"  # {hint}')
+        head = [f"A scenario of MARS2D. Run it: mars2d run {filename}"]
+        head += [f"{serialize.LOST}: {name}" for name in dict.fromkeys(self.missing)]
+        if any(name.startswith("law ") for name in self.missing):
+            head.append('A law is named by its place: controller = "file.py:function"')
+        return "\n".join([f"#:schema {SCHEMA_FILE}", *map(comment, head), "", *lines]) + "\n"
 
-    def _table(self, part: Description, path: str, index: int = 0) -> list[str]:
-        """Return the lines of a part's table, without its header.
+    def _table(self, part: Description, place: Place, index: int = 0) -> dict[str, Any]:
+        """Return a part as a table; its type stands in it unless only one is possible there.
 
-        path: its name and a full stop; empty for the scenario. index: its place in its list.
+        index: its place in its list.
         """
-        lines, below = [], []
-        fields, places = serialize.changed(part, index), serialize.parts_of(type(part))
+        kind = type(part)
+        fields, places = serialize.changed(part, index), serialize.parts_of(kind)
+        table: dict[str, Any] = {} if kind is place.base else {"type": quoted(kind.__name__)}
         for name in sorted(fields, key=lambda field: field != "name"):
-            value, place = fields[name], places.get(name)
-            if place is None or value is None:
-                law = callable(value) and not serialize.is_ready_made(type(value))
-                lines.append(self._law(name, value) if law else self._line(part, name, value))
-            elif place.many:
-                for i, item in enumerate(value):
-                    below += ["", f"[[{path}{name}]]", *_type(place, item)]
-                    below += self._table(item, f"{path}{name}.", i)
-            elif len(line := self._line(part, name, value)) <= WIDTH and (path or "{" not in line):
-                lines.append(line)
-            else:
-                below += ["", f"[{path}{name}]", *_type(place, value)]
-                below += self._table(value, f"{path}{name}.")
-        return lines + below
+            value, check = fields[name], kind.__dataclass_fields__[name].metadata.get("check")
+            if check is image_file and value is not None and Path(value).is_absolute():
+                table[name] = quoted(seen_from(value, self.folder))
+            elif not callable(value) or serialize.is_ready_made(type(value)):
+                table[name] = self._node(value, places.get(name, Place(Description)))
+            elif law := self._law(name, value):
+                table[name] = law
+        return table
 
-    def _line(self, part: Description, name: str, value: Any) -> str:
-        """Return the line of a field, or the lines of a long list."""
-        return laid_out(self._node(part, name, value), f"{name} = ")
-
-    def _law(self, field: str, law: Law | str) -> str:
-        """Return the line that names a law, or a comment that says why it is missing."""
-        if isinstance(law, str):
-            Reference.read(field, law)
-            return f"{field} = {quoted(law)}"
-        found = Reference.of(law)
-        if found is None:
-            self.missing.append(f"law {name_of(law)}")
-            hint = f'add {field} = "file.py:function"'
-            return comment(f"law: {name_of(law)} can't be written down; {hint}")
-        return f"{field} = {quoted(f'{seen_from(found.file, self.folder)}:{found.name}')}"
-
-    def _node(self, part: Description, name: str, value: Any) -> Node:
-        """Return the value of a field."""
-        place = serialize.parts_of(type(part)).get(name, Place(Description))
-        check = type(part).__dataclass_fields__[name].metadata.get("check")
-        if check is image_file and value is not None and Path(value).is_absolute():
-            return quoted(seen_from(value, self.folder))
-        return self._plain(value, place)
-
-    def _plain(self, value: Any, place: Place) -> Node:
-        """Return a value in TOML; a part as a table in one line, or as its type if that says all.
-
-        place: where it stands.
-        """
+    def _node(self, value: Any, place: Place) -> Node:
+        """Return a value in TOML. place: where it stands."""
         if isinstance(value, Description):
-            fields = serialize.changed(value).items()
-            items = [f"{k} = {flat(self._node(value, k, v))}" for k, v in fields]
-            inside = ", ".join([*_type(place, value), *items])
-            return f"{{ {inside} }}" if items else quoted(type(value).__name__)
+            return self._table(value, place)
         if isinstance(value, (list, tuple)):
-            return [self._plain(item, place) for item in value]
+            return [
+                self._table(item, place, i) if place.many else self._node(item, place)
+                for i, item in enumerate(value)
+            ]
         return plain(value)
 
-
-def _type(place: Place, part: Description) -> list[str]:
-    """Return the line with the type of a part, unless only one type is possible."""
-    kind = type(part)
-    return [] if kind is place.base else [f"type = {quoted(kind.__name__)}"]
+    def _law(self, field: str, law: Law | str) -> str:
+        """Return the place of a law in TOML, or "" where it has none."""
+        if isinstance(law, str):
+            Reference.read(field, law)
+            return quoted(law)
+        if (found := Reference.of(law)) is None:
+            self.missing.append(f"law {name_of(law)}")
+            return ""
+        return quoted(f"{seen_from(found.file, self.folder)}:{found.name}")
 
 
 # -- reading -----------------------------------------------------------------------------------
