@@ -314,13 +314,17 @@ class Description:
         """Return the state that is copied and pickled: everything but cached properties."""
         return {k: value for k, value in self.__dict__.items() if k not in self._computed}
 
-    def __repr__(self) -> str:
-        changed = []
+    def _changed(self) -> dict[str, Any]:
+        """Return the fields that differ from their defaults, in order."""
+        found = {}
         for field in dataclasses.fields(self):
             value, made = getattr(self, field.name), field.default_factory
-            default = field.default if made is dataclasses.MISSING else made()
-            if value != default:
-                changed.append(f"{field.name}={shown(value, 200)}")
+            if value != (field.default if made is dataclasses.MISSING else made()):
+                found[field.name] = value
+        return found
+
+    def __repr__(self) -> str:
+        changed = (f"{name}={shown(value, 200)}" for name, value in self._changed().items())
         return f"{type(self).__name__}({', '.join(changed)})"
 
 

@@ -1,15 +1,13 @@
-"""Pictures of a scenario: those in its files, put into a record, which opens no other file."""
+"""Pictures of a scenario: those of its floors, put into a record, which opens no other file."""
 
 from __future__ import annotations
 
-from dataclasses import fields
+from contextlib import suppress
 from typing import Any
 
-from mars2d.addons.base import Addon
-from mars2d.core.description import Description
+from mars2d.addons.floor import Floor
 from mars2d.core.errors import InputError, one_line
-from mars2d.core.picture import Picture, holds_pixels, image_file, picture_name, without_pixels
-from mars2d.scenario import serialize
+from mars2d.core.picture import holds_pixels, picture_name, without_pixels
 from mars2d.scenario.scenario import Scenario
 
 
@@ -20,40 +18,23 @@ def enclosed(value: Any) -> Any:
     """
     if not isinstance(value, Scenario):
         return value
-    return value.replace(addons=[_enclosed(addon) for addon in value.addons])
+    addons = [*value.addons]
+    for k, addon in enumerate(addons):
+        if isinstance(addon, Floor) and addon.image is not None:
+            with suppress(InputError):
+                addons[k] = addon.replace(image=addon.picture.as_text(addon.image))
+    return value.replace(addons=addons)
 
 
-def _enclosed(addon: Addon) -> Addon:
-    named = [name for name in _images(type(addon)) if getattr(addon, name) is not None]
-    try:
-        picture: Picture | None = getattr(addon, "picture", None) if named else None
-    except InputError:
-        return addon
-    changes = {} if picture is None else {n: picture.as_text(getattr(addon, n)) for n in named}
-    return addon.replace(**changes) if changes else addon
-
-
-def of_record(plain: Any, missing: list[str]) -> Any:
+def of_record(plain: dict[str, Any], missing: list[str]) -> dict[str, Any]:
     """Return a scenario of a record, as plain data, without the names of files.
 
     A picture that the record does not hold is named in `missing`, and nothing is opened for it.
     """
-    if isinstance(plain, list):
-        return [of_record(item, missing) for item in plain]
-    if not isinstance(plain, dict):
-        return plain
-    inside = {name: of_record(item, missing) for name, item in plain.items()}
-    for name in _images(serialize.kind_of(plain)):
-        image = inside.get(name)
+    addons = [*plain["addons"]]
+    for k, addon in enumerate(addons):
+        image = addon.get("image")
         if isinstance(image, str) and not holds_pixels(image):
-            missing.append(f"picture {one_line(picture_name(image))} of {plain['type']}")
-            inside[name] = without_pixels(image)
-    return inside
-
-
-def _images(kind: type[Description] | None) -> list[str]:
-    """Return the fields of a class that are files of pictures."""
-    return [
-        field.name for field in (fields(kind) if kind else ())
-        if field.metadata.get("check") is image_file
-    ]  # fmt: skip
+            missing.append(f"picture {one_line(picture_name(image))} of {addon['type']}")
+            addons[k] = addon | {"image": without_pixels(image)}
+    return plain | {"addons": addons}

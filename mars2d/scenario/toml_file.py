@@ -20,9 +20,8 @@ from mars2d.core.files import atomic_write, file_beside
 from mars2d.core.picture import holds_pixels, image_file
 from mars2d.core.usercode import name_of
 from mars2d.scenario import serialize
-from mars2d.scenario.code_file import law_in, located
+from mars2d.scenario.code_file import Reference, law_in, located, seen_from
 from mars2d.scenario.controllers import Controller
-from mars2d.scenario.law_reference import Reference, seen_from
 from mars2d.scenario.pretty import NONE, Node, comment, plain, quoted, tables
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
