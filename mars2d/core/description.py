@@ -81,25 +81,6 @@ def bounded(
     return check
 
 
-def several(low: float, high: float, count: int, expected: str, fewer: int = 0) -> Check:
-    """Return a check for so many numbers from low to high, kept as a tuple.
-
-    fewer: how many may be left out at the end; they are 0.
-    """
-    each = bounded(expected, low, high=high)
-    items = vars(each)["schema"]
-
-    @accepts({"type": "array", "items": items, "minItems": count - fewer, "maxItems": count})
-    def check(name: str, value: Any) -> tuple[float, ...]:
-        fits = isinstance(value, (tuple, list, np.ndarray)) and 0 <= count - len(value) <= fewer
-        if not fits:
-            raise wrong(name, value, expected)
-        found = tuple(each(f"{name}[{i}]", item) for i, item in enumerate(value))
-        return found + (0.0,) * (count - len(found))
-
-    return check
-
-
 def _bounds(low: float | None, above: float | None, high: float | None, unit: str) -> str:
     signs = ((">=", low), (">", above), ("<=", high))
     limits = [f"{sign} {limit:g}" for sign, limit in signs if limit is not None]

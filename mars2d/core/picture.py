@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.checks import COORDINATE, MAX_COORDINATE
-from mars2d.core.description import accepts, real, wrong
+from mars2d.core.checks import MAX_COORDINATE, several
+from mars2d.core.description import accepts, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.scene import LARGEST_IMAGE, rgb
 
@@ -56,15 +56,17 @@ def image_file(name: str, value: object) -> str:
     return str(value)
 
 
-@accepts({"type": "array", "items": COORDINATE, "minItems": 4, "maxItems": 4})
+_BOUNDS = "(xmin, xmax, ymin, ymax) in metres with xmin < xmax and ymin < ymax, or None"
+_four = several(-MAX_COORDINATE, MAX_COORDINATE, 4, _BOUNDS)
+
+
+@accepts(vars(_four)["schema"])
 def image_bounds(name: str, value: object) -> Bounds:
     """Check the bounds of an image."""
-    if isinstance(value, (tuple, list, np.ndarray)) and len(value) == 4:
-        xmin, xmax, ymin, ymax = (real(f"{name}[{i}]", item) for i, item in enumerate(value))
-        if xmin < xmax and ymin < ymax and max(-xmin, xmax, -ymin, ymax) <= MAX_COORDINATE:
-            return xmin, xmax, ymin, ymax
-    expected = "(xmin, xmax, ymin, ymax) in metres with xmin < xmax and ymin < ymax, or None"
-    raise wrong(name, value, expected)
+    xmin, xmax, ymin, ymax = _four(name, value)
+    if xmin < xmax and ymin < ymax:
+        return xmin, xmax, ymin, ymax
+    raise wrong(name, value, _BOUNDS)
 
 
 class Picture:

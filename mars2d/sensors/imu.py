@@ -8,7 +8,8 @@ from typing import Any, ClassVar
 import numpy as np
 
 from mars2d.core.arithmetic import cosine_sine, norm
-from mars2d.core.description import entry, several
+from mars2d.core.checks import several
+from mars2d.core.description import entry
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene

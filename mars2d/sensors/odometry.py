@@ -8,7 +8,8 @@ from typing import Any, ClassVar
 import numpy as np
 
 from mars2d.core.arithmetic import cosine_sine
-from mars2d.core.description import choice, entry, number, several, wrong
+from mars2d.core.checks import several
+from mars2d.core.description import choice, entry, number, wrong
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene

@@ -8,12 +8,12 @@ from typing import ClassVar, Self
 from mars2d.bodies.joints.base import Joint
 from mars2d.bodies.rigid import Inertia, Rigid, Surface, inertia_of
 from mars2d.core import checks
+from mars2d.core.checks import several
 from mars2d.core.description import (
     Description,
     choice,
     entry,
     number,
-    several,
     text,
 )
 from mars2d.core.materials import (
