@@ -7,7 +7,7 @@ from typing import Any
 
 from mars2d.addons.floor import Floor
 from mars2d.core.errors import InputError, one_line
-from mars2d.core.picture import holds_pixels, picture_name, without_pixels
+from mars2d.core.picture import holds_pixels, picture_name, with_pixels, without_pixels
 from mars2d.scenario.scenario import Scenario
 
 
@@ -22,7 +22,7 @@ def enclosed(value: Any) -> Any:
     for k, addon in enumerate(addons):
         if isinstance(addon, Floor) and addon.image is not None:
             with suppress(InputError):
-                addons[k] = addon.replace(image=addon.picture.as_text(addon.image))
+                addons[k] = addon.replace(image=with_pixels(addon.image, addon.picture))
     return value.replace(addons=addons)
 
 
