@@ -1,11 +1,13 @@
-"""Files of Python code: modules of their own, which hold experiments and laws."""
+"""Files of Python code: modules of their own, which hold experiments, laws and lessons."""
 
 from __future__ import annotations
 
+import ast
 import importlib.util
 import inspect
 import itertools
 import os
+import re
 import sys
 import threading
 import traceback
@@ -115,8 +117,6 @@ def law_in(
     return cast("Callable[[Any], Any]", law)
 
 
-# -- laws by file and name ------------------------------------------------------------------------
-
 EXPECTED = "where a law stands, such as 'walk.py:walk': a file of Python, and a function in it"
 
 MAX_UP = 2
@@ -174,3 +174,24 @@ def seen_from(file: str, folder: Path) -> str:
         return Path(whole).as_posix()
     near = shared != Path(here).anchor and Path(relative).parts.count("..") <= MAX_UP
     return Path(relative if near else whole).as_posix()
+
+
+HEADINGS = re.compile(
+    r"(?:^|(?<=[.?!)] ))(Question|Setting|Law(?: \([^)]*\))?|Prediction|Measured|Try|Play|Source): "
+)
+"""The words with which parts of a docstring begin."""
+
+
+def lesson_of(path: Path | None) -> list[tuple[str, str]]:
+    """Return the parts of the docstring of a Python file: headings and texts.
+
+    >>> HEADINGS.split("Question: how far? Source: a book.")
+    ['', 'Question', 'how far? ', 'Source', 'a book.']
+    """
+    if path is None or path.suffix != ".py":
+        return []
+    text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+    first, *rest = HEADINGS.split(" ".join(text.split()))
+    named = zip(rest[::2], rest[1::2], strict=True)
+    parts = [(heading, text.strip()) for heading, text in (("", first), *named)]
+    return [(heading, text[:1].upper() + text[1:]) for heading, text in parts]

@@ -31,7 +31,7 @@ from mars2d.scenario.material_pair import MaterialPair, check_once
 from mars2d.scenario.neighbours import Everyone, Neighbourhood, neighbourhood
 from mars2d.scenario.random_starts import RandomStarts, Room, poses_of, room_of
 from mars2d.scenario.robot import Robot
-from mars2d.scenario.stop_on import CONTACT, Pairs, bodies_named, stop_on
+from mars2d.scenario.roles import CONTACT, Pairs, bodies_named, stop_on
 
 PHYSICS = ("contact", "stop", "ideal")
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from functools import cache
 from typing import Any, NamedTuple, get_args, get_origin, get_type_hints
 
 from mars2d.addons.base import Addon
 from mars2d.addons.communication import Burst
+from mars2d.addons.floor import Floor
 from mars2d.addons.map import Map
 from mars2d.bodies.drives.base import Drive
 from mars2d.bodies.drives.wheeled import Unicycle
@@ -16,8 +18,9 @@ from mars2d.bodies.joints.base import Joint
 from mars2d.bodies.props.base import Prop
 from mars2d.bodies.props.solid import Solid
 from mars2d.core.description import Description, snake_case
-from mars2d.core.errors import InputError
+from mars2d.core.errors import InputError, one_line
 from mars2d.core.materials import Coefficient
+from mars2d.core.picture import holds_pixels, picture_name, with_pixels, without_pixels
 from mars2d.geometry.shapes import Compound, Disc, Polygon, Shape
 from mars2d.scenario.animation import Animation
 from mars2d.scenario.controllers import Controller
@@ -170,6 +173,49 @@ def without_code(scenario: Scenario) -> tuple[Scenario, tuple[str, ...]]:
     """
     kept, missing = to_scenario(from_description(scenario))
     return kept.with_laws([robot.controller for robot in scenario.robots]), missing
+
+
+def to_record(value: Any) -> Any:
+    """Return what a record holds as plain data; of a scenario also the pictures of its floors.
+
+    A picture that can't be read any more stays a name.
+    """
+    if not isinstance(value, Scenario):
+        return from_description(value)
+
+    def enclosed(floor: Floor) -> str:
+        with suppress(InputError):
+            return with_pixels(str(floor.image), floor.picture)
+        return str(floor.image)
+
+    return from_description(_with_images(value, enclosed))
+
+
+def of_record(plain: Any) -> tuple[Scenario, tuple[str, ...]]:
+    """Return the scenario of a record, and the names of missing parts, as `to_scenario` does.
+
+    A picture that the record does not hold is one of these; no file is opened for it.
+    """
+    lost: dict[str, None] = {}
+
+    def held(floor: Floor) -> str:
+        image = str(floor.image)
+        if not holds_pixels(image):
+            lost[f"picture {one_line(picture_name(image))} of {type(floor).__name__}"] = None
+            return without_pixels(image)
+        return image
+
+    scenario, missing = to_scenario(plain)
+    return _with_images(scenario, held), (*missing, *lost)
+
+
+def _with_images(scenario: Scenario, image: Callable[[Floor], str]) -> Scenario:
+    """Return a scenario with other texts as images of its floors."""
+    addons = [
+        addon.replace(image=image(addon)) if isinstance(addon, Floor) and addon.image else addon
+        for addon in scenario.addons
+    ]
+    return scenario if addons == [*scenario.addons] else scenario.replace(addons=addons)
 
 
 def _to_description(value: Any, missing: list[str]) -> Any:
