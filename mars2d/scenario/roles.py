@@ -79,14 +79,13 @@ def robots_named(
 def _named(scenario: ScenarioLike, who: str | int, field: str) -> tuple[int, ...]:
     """Return the robots that a name, an index or a role stands for."""
     names, roles = [str(robot.name) for robot in scenario.robots], roles_of(scenario)
-    if isinstance(who, str) and who in names:
-        return (names.index(who),)
-    if isinstance(who, str) and who in roles:
-        return roles[who]
-    if str(who).isdecimal() and int(who) < len(names):
-        return (int(who),)
-    known = nearest(who, {*names, *roles})
-    raise InputError(f"{field} {who}: there is no such robot or role{known}")
+    if who in roles and who not in names:
+        return roles[str(who)]
+    try:
+        return (scenario.index_of(field, who),)
+    except InputError:
+        known = nearest(who, {*names, *roles})
+        raise InputError(f"{field} {who}: there is no such robot or role{known}") from None
 
 
 CONTACT = "contact"

@@ -430,12 +430,15 @@ class Scenario(Description):
 
 
 def index_among(field: str, kind: str, wanted: str | int, names: list[str]) -> int:
-    """Return the place of a name among others, or a place that there is; else InputError."""
-    if isinstance(wanted, str):
-        if wanted not in names:
-            raise InputError(f"{field}: there is no {kind} {wanted!r}{nearest(wanted, names)}")
-        return names.index(wanted)
-    if not 0 <= wanted < len(names):
+    """Return the place of a name among others, or a place that there is; else InputError.
+
+    A name of digits that none of them has is a place.
+    """
+    if wanted in names:
+        return names.index(str(wanted))
+    if isinstance(wanted, str) and not wanted.isdecimal():
+        raise InputError(f"{field}: there is no {kind} {wanted!r}{nearest(wanted, names)}")
+    if not 0 <= int(wanted) < len(names):
         raise InputError(f"{field}: there is no {kind} {wanted}; they are 0 to {len(names) - 1}")
     return int(wanted)
 
