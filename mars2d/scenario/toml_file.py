@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from mars2d.core.description import Description, wrong
-from mars2d.core.errors import InputError, likely, nearest, shown
+from mars2d.core.errors import InputError, likely, nearest, one_line, shown
 from mars2d.core.files import atomic_write, file_beside
 from mars2d.core.materials import Coefficient
 from mars2d.core.picture import holds_pixels, image_file
@@ -103,7 +103,8 @@ class _Writer:
         head += [f"{serialize.LOST}: {name}" for name in dict.fromkeys(self.missing)]
         if any(name.startswith("law ") for name in self.missing):
             head.append('A law is named by its place: controller = "file.py:function"')
-        return "\n".join([f"#:schema {SCHEMA_FILE}", *map(comment, head), "", *lines]) + "\n"
+        head = [f"#:schema {SCHEMA_FILE}", *(f"# {one_line(each)}" for each in head), ""]
+        return "\n".join([*head, *lines]) + "\n"
 
     def _table(self, part: Description, place: Place, index: int = 0) -> dict[str, Any]:
         """Return a part as a table; its type stands in it unless only one is possible there.
@@ -185,11 +186,6 @@ def plain(value: Any) -> str:
     if isinstance(value, Coefficient):
         return quoted(value.material)
     return repr(float(value) if isinstance(value, float) else int(value))
-
-
-def comment(text: str) -> str:
-    """Return a line of comment, without characters that can't be part of a line."""
-    return "# " + "".join(c for c in " ".join(text.split()) if c.isprintable())
 
 
 def quoted(text: str) -> str:
@@ -290,12 +286,8 @@ class _Reader:
                 self.path.name, f"no scenario: the first line should be format = {FORMAT}"
             )
         with self._pointing("", "format"):
-            found = data["format"]
-            if type(found) is not int or found < 1:
-                raise wrong("format", found, str(FORMAT))
-            if found > FORMAT:
-                newer = f"newer than this MARS2D, which reads {FORMAT}"
-                raise InputError(f"format = {found}: {newer}")
+            if data["format"] != FORMAT:
+                raise wrong("format", data["format"], f"{FORMAT}, which this MARS2D reads")
         fields = {name: value for name, value in data.items() if name not in HEADS}
         scenario = self._part(Place(Scenario, default=Scenario), fields, "")
         assert isinstance(scenario, Scenario)

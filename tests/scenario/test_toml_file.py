@@ -206,7 +206,7 @@ ROBOT = "[[robots]]\n"
 
 WRONG = [
     ("", "scene.toml: no scenario: the first line should be format = 1"),
-    ("format = 2", "scene.toml, line 1: format = 2: newer than this MARS2D, which reads 1"),
+    ("format = 2", "scene.toml, line 1: format = 2: expected 1, which this MARS2D reads"),
     ('\n\ntitle = "x', "scene.toml, line 3: "),
     ("\nx = " + "[" * 9999, "scene.toml: brackets stand in each other too deeply"),
     ("\ntitle = 'x", "scene.toml, at its end: Expected"),
