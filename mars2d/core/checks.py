@@ -18,14 +18,11 @@ from mars2d.core.errors import InputError, shown
 from mars2d.core.plane import Outline, Point, is_clearly_convex
 from mars2d.core.usercode import definition
 
-MAX_ITEMS = 1_000_000
-"""The longest list that a field may have; an iterator may have no end."""
-
 MAX_COORDINATE = 1e6
 """The largest coordinate, metres: beyond it a double can't resolve a nanometre."""
 
 
-def items_of(name: str, value: object, expected: str, most: int = MAX_ITEMS) -> list[Any]:
+def items_of(name: str, value: object, expected: str, most: int = 1_000_000) -> list[Any]:
     """Return the items of a list, an array or anything that yields them; no more than `most`."""
     if isinstance(value, (str, bytes, dict)) or not isinstance(value, Iterable):
         raise wrong(name, value, expected)

@@ -221,9 +221,8 @@ class Scenario(Description):
             limits.check_centred(where, known_shape(where, shape))
         floors = {str(prop.name): prop.resting_friction for prop in self.props}
         push = sum(robot.push for robot in self.robots)
-        limits.check_bodies(self.bodies, self.max_overlap, floors, push)
-        drives = [robot.drive for robot in self.robots]
-        limits.check_forces(self.bodies, drives, self.max_overlap)
+        force = max(robot.drive.max_force for robot in self.robots)
+        limits.check_bodies(self.bodies, self.max_overlap, floors, push, force)
 
     def _check_joints(self) -> None:
         """Refuse joints of unknown bodies, and joints that would pull them at once."""
