@@ -120,15 +120,11 @@ def stop_on(name: str, value: object) -> str | Pairs:
     pairs = items_of(name, value, expected)
     if len(pairs) == 2 and all(isinstance(item, str) for item in pairs):
         pairs = [pairs]
-    found = []
-    for pair in pairs:
-        names = () if isinstance(pair, str) else tuple(items_of(name, pair, expected))
-        if len(names) != 2 or not all(isinstance(each, str) for each in names):
-            raise wrong(name, value, expected)
-        found.append((names[0], names[1]))
-    if not found:
+    if not pairs or not all(
+        isinstance(pair, (tuple, list)) and [*map(type, pair)] == [str, str] for pair in pairs
+    ):
         raise wrong(name, value, expected)
-    return tuple(found)
+    return tuple((a, b) for a, b in pairs)
 
 
 def bodies_named(
