@@ -95,7 +95,7 @@ def angles_of(y: ArrayLike, x: ArrayLike) -> Float:
         return np.array([angle_of(*pair) for pair in pairs]).reshape(x.shape)
     high, low = np.maximum(np.abs(x), np.abs(y)), np.minimum(np.abs(x), np.abs(y))
     steep = np.divide(low, high, out=np.zeros_like(high), where=high > 0)
-    angle = _arctangent(steep, np.where)
+    angle: Float = _arctangent(steep, np.where)
     angle = np.where(np.abs(y) > np.abs(x), ARCTANGENTS[3] - angle, angle)
     angle = np.where(x < 0, 2 * ARCTANGENTS[3] - angle, angle)
     return np.where(y < 0, -angle, angle)

@@ -86,10 +86,8 @@ def read_picture(name: str, image: str, color: str | None = None) -> Pixels:
     file is missing, is not a PNG with 8 bits per channel, or is too large. No file is opened for a
     picture in a record.
     """
-    path = Path(image)
-    if holds_pixels(image):
-        return _read(name, image, 0, color)
-    return _read(name, image, path.stat().st_mtime_ns if path.exists() else 0, color)
+    named = not holds_pixels(image) and Path(image).exists()
+    return _read(name, image, Path(image).stat().st_mtime_ns if named else 0, color)
 
 
 @lru_cache(maxsize=4)

@@ -19,7 +19,6 @@ from mars2d.sensors.surroundings import Surroundings
 ARROW = 0.2
 """The length of an arrow for an acceleration of 1 m/s^2, metres."""
 
-
 _three = several(-1e6, 1e6, 3, "three numbers, for (ax, ay) [m/s^2] and omega [rad/s]")
 _three_spreads = several(0.0, 1e6, 3, "three numbers >= 0, for (ax, ay) and omega")
 

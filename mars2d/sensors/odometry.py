@@ -55,9 +55,8 @@ class Odometry(Sensor):
         doc="assumed over true radius of the left and the right wheel",
     )  # fmt: skip
     semiaxis_scale: float = number(
-        default=1.0, low=1e-3, high=1e3,
-        doc="assumed over true distance of the wheels",
-    )  # fmt: skip
+        default=1.0, low=1e-3, high=1e3, doc="assumed over true distance of the wheels"
+    )
     origin: str = choice(
         default="start", of=("start", "world"),
         doc="the frame of the estimate: the pose at the start, or the world",

@@ -80,6 +80,13 @@ def test_the_file_of_all_kinds_is_laid_out_as_it_is_saved(tmp_path):
     assert text == EVERYTHING.replace("everything.toml", "scene.toml")
 
 
+def test_a_long_list_has_a_line_for_each_item(tmp_path):
+    scenario = Scenario(addons=[Map([[(k, 2), (k + 0.5, 3)] for k in range(4)])])
+    text, _, again = saved(scenario, tmp_path)
+    assert "\noutlines = [\n    [[0.0, 2.0], [0.5, 3.0]],\n    [[1.0," in text
+    assert again == scenario
+
+
 @each_case("name", ["go_to_point", "push_box"])
 def test_a_run_of_the_file_is_that_of_the_experiment(name, tmp_path):
     experiment = open_experiment(name, {"addons": []})
