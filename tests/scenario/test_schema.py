@@ -62,7 +62,7 @@ def numeric():
 
 
 def test_gate_and_schema_refuse_the_same_numbers():
-    taken, count = [], 0
+    taken = []
     for kind, field, beyond in numeric():
         name = f"{kind.__name__}.{field.name}"
         for value in (*beyond, *NO_NUMBERS):
@@ -73,9 +73,8 @@ def test_gate_and_schema_refuse_the_same_numbers():
         )
         checker = CHECKER.evolve(schema=where["properties"][field.name])
         taken += [(name, value) for value in beyond if checker.is_valid(value)]
-        count += len(beyond)
+        assert len(beyond) == 2, f"{name} has a least and a largest value"
     assert taken == []
-    assert count > 150
 
 
 @pytest.mark.slow
