@@ -211,7 +211,7 @@ def _without_flat(triangles: Any, least: float) -> list[tuple[int, int]]:
     return list({tuple(sorted(edge)) for edge in sides.reshape(-1, 2).tolist()} - gone)
 
 
-EXPECTED = "an adjacency matrix (n, n) of finite numbers, or a pair (n, edges), each edge (i, j)"
+EXPECTED = "an adjacency matrix (n, n) of numbers, or a pair (n, edges)"
 
 
 def _edges(name: str, value: Any) -> tuple[int, Edges]:

@@ -226,7 +226,7 @@ def test_a_graph_may_be_given_by_its_edges():
     assert Graph((2, [])).of(np.zeros((2, 2))) == [[], []]
 
 
-NOT_A_GRAPH = "expected an adjacency matrix (n, n) of finite numbers, or a pair (n, edges)"
+NOT_A_GRAPH = "expected an adjacency matrix (n, n) of numbers, or a pair (n, edges)"
 
 
 @each_case(
