@@ -281,7 +281,7 @@ def shown(monkeypatch):
         raise InputError("that is all")
 
     monkeypatch.setattr(show, "show_experiment", show_experiment)
-    monkeypatch.setattr("mars2d.window.screen.display.display_available", lambda: True)
+    monkeypatch.setattr("mars2d.cli.runs.display_available", lambda: True)
     return found
 
 
@@ -324,6 +324,6 @@ def test_play_seats_people_in_their_order(shown, roles, humans):
     ],
 )
 def test_where_nobody_can_drive_this_is_said_at_once(monkeypatch, capsys, arguments, words):
-    monkeypatch.setattr("mars2d.window.screen.display.display_available", lambda: False)
+    monkeypatch.setattr("mars2d.cli.runs.display_available", lambda: False)
     assert main(["run", "pursuit_corners", *arguments]) == BAD_INPUT
     assert words in capsys.readouterr().err

@@ -15,9 +15,8 @@ from mars2d.core.materials import Coefficient
 from mars2d.core.scene import PALETTE
 from mars2d.core.usercode import name_of
 from mars2d.scenario import serialize
-from mars2d.scenario.code_file import law_in
+from mars2d.scenario.code_file import Reference, law_in
 from mars2d.scenario.controllers import Controller, FollowRobot, FollowWaypoints, standing_still
-from mars2d.scenario.law_reference import Reference
 from mars2d.scenario.options import parse_option
 from mars2d.scenario.registry import members
 from mars2d.scenario.robot import Robot

@@ -13,7 +13,7 @@ from mars2d.addons.contest import Contest, wins
 from mars2d.bodies.drives.base import Drive
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import Steer
-from mars2d.scenario.law_reference import Reference
+from mars2d.scenario.code_file import Reference
 from mars2d.scenario.roles import contests_of, role_of, roles_of
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.run.director import Director
