@@ -96,7 +96,7 @@ def of_run(window):
     player, director = window.player, window.director
     frame, source, timeline = player.frame, player.source, director.timeline
     seen = window.grab.shown(frame)
-    bar, slider = window._controls.time_bar, window._controls.slider
+    bar, slider = window.time_bar, window.slider
     banner = window._ending.banner()
     scopes, plots = window.dock.scopes, window.dock.scopes._plots
     corner = scopes._place.topleft
@@ -168,7 +168,7 @@ def predictions_of(panel):
 
 
 def marks_of(window):
-    return window._controls.time_state().marks
+    return window.time_bar.marks()
 
 
 def game_of(window):
@@ -183,7 +183,7 @@ def game_of(window):
 
 def of_comparison(window):
     player, trio = window.player, window.trio
-    bar = window._controls.time_bar
+    bar = window.time_bar
     return {
         "time": round(player.frame.time, 3),
         "row": trio.row,

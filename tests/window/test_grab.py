@@ -11,17 +11,19 @@ from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.bodies.joints import Rope
 from mars2d.bodies.props import Box
+from mars2d.core.errors import InputError
 from mars2d.core.scene import Circle, Line, Text
 from mars2d.output.raster.camera import Camera
-from mars2d.window.run import drags
-from mars2d.window.run.drags import pull_of
 from mars2d.window.run.grab import Grab
+from mars2d.window.run.marks import BAD
+from mars2d.window.run.push import pull_of
 from tests.cases import each_case
 
 LEFT, RIGHT = pygame.BUTTON_LEFT, pygame.BUTTON_RIGHT
 pytestmark = pytest.mark.usefixtures("keyboard")
 
 CAMERA = Camera(100.0, 300.0, 200.0)
+VIEW = SimpleNamespace(camera=CAMERA, point_at=lambda at: tuple(CAMERA.to_world([at])[0].tolist()))
 
 SCENARIO = Scenario(
     robots=[Robot(name="red"), Robot(name="blue", pose=(1, 0, 0))],
@@ -40,7 +42,7 @@ class Person:
         self.world, self.playing, self.recording = World(scenario), playing, recording
         self.said, self.clicked, self.now = [], [], 0.0
         self.grab = Grab(
-            self, SimpleNamespace(camera=CAMERA), [], lambda pixel: pixel, self.change,
+            self, VIEW, [], lambda pixel: pixel, self.change,
             self.said.append, {LEFT: self.clicked.append}, clock=lambda: self.now,
         )  # fmt: skip
 
@@ -52,17 +54,23 @@ class Person:
         if self.recording:
             self.said.append("a recording")
             return False
-        act(self.world)
+        try:
+            act(self.world)
+        except InputError as error:
+            self.said.append(str(error))
+            return False
         return True
 
     def pixel(self, x, y):
         return tuple(np.rint(CAMERA.to_pixels([(x, y)])[0]).astype(int).tolist())
 
     def move(self, x, y):
-        self.grab.move(self.pixel(x, y), (0, 0))
+        self.pointer = self.pixel(x, y)
+        self.grab.move(self.pointer)
 
     def press(self, x, y, button=LEFT):
-        self.grab.press(self.pixel(x, y), button)
+        self.pointer = self.pixel(x, y)
+        self.grab.press(self.pointer, button)
         return self.grab.busy
 
     def release(self, x, y):
@@ -71,7 +79,7 @@ class Person:
     def wait(self, steps):
         """Let time pass, with a picture at each step."""
         for _ in range(steps):
-            self.grab.tick()
+            self.grab.tick(self.pointer)
             self.world.step()
             self.now += 0.1
 
@@ -141,7 +149,7 @@ def test_once_time_stands_still_it_lets_go():
     person.press(0, 0)
     person.move(0.0, -1.0)
     person.playing = False
-    person.grab.tick()
+    person.grab.tick(person.pointer)
     assert person.world.operator.pulls == ()
     assert not person.grab.busy
 
@@ -197,12 +205,20 @@ def test_a_drag_shows_a_body_elsewhere_and_puts_it_there_when_it_ends():
     assert [type(i).__name__ for i in person.world.operator.log] == ["Place"]
 
 
+def test_a_drag_of_which_only_press_and_release_are_seen_counts():
+    person = Person()
+    person.press(-1.05, 0.0)
+    person.release(-1.05, -1.0)
+    assert person.world.prop_pose[:, 0].tolist() == pytest.approx([-1, -1, 0])
+    assert person.clicked == []
+
+
 def test_where_it_can_not_stay_this_is_said_in_red_and_it_springs_back():
     person = Person()
     person.press(0, 0)
     person.move(0.9, 0.0)
     assert person.words() == ["would overlap blue"]
-    assert drags.BAD in {ring.stroke for ring in person.marks(Circle)}
+    assert BAD in {ring.stroke for ring in person.marks(Circle)}
     person.release(0.9, 0.0)
     assert person.said == ["red can't be put there: it would overlap blue"]
     assert person.shown().pose[:, 0].tolist() == [0, 0, 0]

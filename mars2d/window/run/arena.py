@@ -14,15 +14,14 @@ from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.stage import Stage
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import pushes_at
-from mars2d.window.run.drags import GOOD, draw_ring
 from mars2d.window.run.ghosts import ghosts
 from mars2d.window.run.grab import Grab
 from mars2d.window.run.heat import AGAIN, MOST, heat, squeezes
+from mars2d.window.run.marks import GOOD, draw_ring
 from mars2d.window.run.push import draw_pushes
 from mars2d.window.run.tools import Ruler
 from mars2d.window.screen.picking import Selection, sensed_by
 from mars2d.window.screen.source import Source, done_in
-from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.world.timeline import Timeline
 
 
@@ -41,13 +40,13 @@ class Arena:
         self,
         surface: pygame.Surface,
         frame: Frame,
-        viewpoint: Viewpoint,
         layers: Layers,
         free: Sequence[pygame.Rect],
         pointer: Point | None,
     ) -> None:
         """Draw a frame; free: the sides of the picture without panels. pointer: metres."""
         marks, more, selected = Scene(), "", self._selection.body
+        viewpoint, source = self._grab.viewpoint, self._source
         many = len(frame.contacts) > (AGAIN if self._crowded else MOST)
         self._crowded = many and layers.forces
         if self._crowded:
@@ -57,10 +56,9 @@ class Arena:
         if selected is not None:
             draw_ring(marks, frame, selected, GOOD, 2.5, 10.0)
         marks.shapes += self._grab.marks(frame, named=layers.names, more=more)
-        pushes = pushes_at(done_in(self._source), frame.time, frame.scenario.sampling_time)
+        pushes = pushes_at(done_in(source), frame.time, frame.scenario.sampling_time)
         draw_pushes(marks, frame, pushes, viewpoint.camera)
         self._ruler.draw(marks, frame, viewpoint.camera, pointer)
-        source = self._source
         self._stage.draw(
             surface,
             sensed_by(frame, selected),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from itertools import combinations
 from math import dist, inf
@@ -14,31 +14,37 @@ from threading import Lock
 import pygame
 
 from mars2d.core.deadline import Deadline, patience
+from mars2d.core.errors import Mars2dError
 from mars2d.core.interrupt import give_up
 from mars2d.output.layers.table import LAYERS, Layers
-from mars2d.output.raster.bars import footer_height
+from mars2d.output.raster.bars import Status, draw_footer, draw_header, footer_height
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.layout import Layout
+from mars2d.output.raster.picture import summary
 from mars2d.window.run import keys
-from mars2d.window.run.controls import Controls
 from mars2d.window.run.ending import Ending
 from mars2d.window.run.menus import layer_entries
-from mars2d.window.run.mouse import Mouse
+from mars2d.window.run.mouse import Handle, Mouse, Pixel
+from mars2d.window.run.timebar import TimeBar, costs
 from mars2d.window.run.toolbar import Toolbar
 from mars2d.window.screen.display import PICTURES_A_SECOND, Preferences, started_display
 from mars2d.window.screen.looks import Looks
-from mars2d.window.screen.player import Player, time_actions
+from mars2d.window.screen.player import SPEEDS, Player, time_actions
 from mars2d.window.screen.rest import Rest
 from mars2d.window.screen.saving import Saver
 from mars2d.window.screen.source import Source, Trio
 from mars2d.window.screen.viewpoint import Viewpoint
-from mars2d.window.widgets.actions import action_of, label_of
+from mars2d.window.widgets.actions import Action, action_of, label_of
 from mars2d.window.widgets.help import Help
 from mars2d.window.widgets.menu import Menu
 from mars2d.window.widgets.notes import Notes
 from mars2d.window.widgets.prompt import Prompts
+from mars2d.window.widgets.slider import SpeedSlider
 from mars2d.world.timeline import Timeline
 
+HINTS = (
+    ("Space", "pause"), ("← →", "step"), ("+ \N{MINUS SIGN}", "speed"), ("F1", "help"),
+)  # fmt: skip
 NAME = 20.0
 """How far bodies are apart at the start where their names are drawn at first, points."""
 ZOOM = 2.0
@@ -52,7 +58,7 @@ class PlayerWindow(ABC):
 
     title: of the window. size: at first, points. stem: the name of saved files, without a number.
 
-    A subclass makes `viewpoint`, `mouse` and `toolbar`.
+    A subclass makes `viewpoint`, `mouse` with the `handles`, and `toolbar`.
     """
 
     viewpoint: Viewpoint
@@ -77,7 +83,11 @@ class PlayerWindow(ABC):
         self.prompts = Prompts(self.menu)
         self.looks = Looks(preferences, self.notes.say)
         self.saver = Saver(self.notes, stem)
-        self._controls = Controls(self.player, marked or source)
+        self.time_bar, self.slider = TimeBar(self.player, marked or source), SpeedSlider(SPEEDS)
+        self.handles = [
+            Handle(self.time_bar.hit, self.time_bar.go),
+            Handle(self.slider.hit, self._choose_speed),
+        ]
         self._ending = Ending(self.player)
         self._held, self._rest = set[int](), Rest()  # keys; a held one repeats few actions
         self._open = False
@@ -132,10 +142,6 @@ class PlayerWindow(ABC):
                 self.saver.close()
         if self.player.error is not None:
             raise self.player.error
-
-    @abstractmethod
-    def draw(self, surface: pygame.Surface, *, notes: bool = True) -> None:
-        """Draw the window on a surface; the layout follows its size."""
 
     # -- time -----------------------------------------------------------------------------------
 
@@ -215,6 +221,53 @@ class PlayerWindow(ABC):
 
     # -- drawing --------------------------------------------------------------------------------
 
+    def draw(self, surface: pygame.Surface, *, notes: bool = True) -> None:
+        """Draw the window on a surface; the layout follows its size. notes: and what lies over."""
+        painter, drag, pointer = self.looks.painter, self.mouse.drag, self._pointer
+        layout = self._layout(surface.get_size())
+        painter.ui = layout.ui
+        try:
+            self._draw_picture(surface, layout, self.layers)
+        except Mars2dError as error:  # raised by the drawing of an add-on or a sensor
+            self.player.fail(error)
+            own = self.layers.switched(**dict.fromkeys(THEIRS, False))
+            self._draw_picture(surface, layout, own)
+        if notes and not self.saver.filming:
+            self._draw_notes(surface)
+        frame, (bar, slider) = self.player.frame, self.handles[:2]
+        draw_header(surface, layout, painter, frame, self._status())
+        self.time_bar.draw(surface, layout.timebar, painter, pointer, held=drag is bar)
+        self.slider.draw(
+            surface, layout.slider, painter, self.player.speed, pointer=pointer,
+            held=drag is slider, costs=costs(self.player),
+        )  # fmt: skip
+        banner, words = self._ending.banner(), summary(frame)
+        draw_footer(surface, layout, painter, banner, words, self._hints)
+        if notes:
+            self.toolbar.draw(surface, layout, painter, pointer)
+        self.help.draw(surface, layout, painter, [*self._helps()])
+
+    @abstractmethod
+    def _draw_picture(self, surface: pygame.Surface, layout: Layout, layers: Layers) -> None:
+        """Draw what is between the bars."""
+
+    def _draw_notes(self, surface: pygame.Surface) -> None:
+        self.notes.draw(surface, self.layout.plot, self.looks.painter, time.monotonic())
+
+    def _status(self) -> Status:
+        """Return the words beside the time."""
+        return Status(*self.player.status())
+
+    @property
+    def _hints(self) -> Sequence[tuple[str, str]]:
+        """The keys that the footer names."""
+        return HINTS
+
+    def _helps(self) -> Iterator[tuple[str, Sequence[Action]]]:
+        """Yield what the help tells, in groups: the keys that do something here."""
+        for group, each in keys.GROUPS.items():
+            yield group, [key for key in each if key.name in self._actions]
+
     def _layout(self, size: tuple[int, int]) -> Layout:
         """Return the layout on a surface of this size."""
         looks = self.looks
@@ -233,10 +286,6 @@ class PlayerWindow(ABC):
     def _pointer(self) -> tuple[int, int] | None:
         """Where the mouse is, if it is on the open window."""
         return pygame.mouse.get_pos() if self._open and pygame.mouse.get_focused() else None
-
-    def _own_layers(self) -> Layers:
-        """Return the layers that are on, without those that the user's code draws."""
-        return self.layers.switched(**dict.fromkeys(THEIRS, False))
 
     # -- events ---------------------------------------------------------------------------------
 
@@ -277,6 +326,10 @@ class PlayerWindow(ABC):
         }.get(action, self.looks.is_on(action))
 
     # -- commands -------------------------------------------------------------------------------
+
+    def _choose_speed(self, pixel: Pixel) -> None:
+        """Play at the speed at a pixel of the slider."""
+        self.player.set_speed(self.slider.speed_at(pixel[0]))
 
     def _restart(self) -> None:
         """Start again, with the file as it is now."""

@@ -13,7 +13,7 @@ from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
 from mars2d.window.run.director import Director
-from mars2d.window.run.drags import GOOD, HALO, LABEL
+from mars2d.window.run.marks import GOOD, HALO, draw_dot, draw_words
 from mars2d.window.run.push import EXPECTED, pushed, suggested
 from mars2d.window.screen.picking import Selection
 from mars2d.window.screen.player import Player
@@ -53,16 +53,15 @@ class Ruler:
         places = [frame.body_pose(e)[:2] if isinstance(e, int) else e for e in self.ends]
         if len(places) == 1 and pointer is not None:
             places.append(pointer)
-        for x, y in places:
-            scene.circle((x, y), 0.0, fill=GOOD, stroke=HALO, width=1.5, pixels=3.5)
+        for place in places:
+            draw_dot(scene, place, GOOD)
         if len(places) == 2:
             (x, y), (u, v) = places
             scene.line(places, stroke=HALO, width=4.0)
             scene.line(places, stroke=GOOD, width=2.0)
             way = f"{dist(*places):.3f} m at {degrees(atan2(v - y, u - x)):.1f}°"
-            middle = (x + u) / 2, (y + v) / 2 + 8 / camera.scale
-            text = way.replace("-", "\N{MINUS SIGN}")
-            scene.text(middle, text, color=GOOD, size=LABEL, anchor="above", halo=HALO)
+            text, middle = way.replace("-", "\N{MINUS SIGN}"), ((x + u) / 2, (y + v) / 2)
+            draw_words(scene, camera, middle, text, GOOD)
 
 
 class Stopwatch:

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
 import pygame
 
-from mars2d.core.errors import Mars2dError
 from mars2d.core.plane import Point
 from mars2d.output.layers.table import Layers
-from mars2d.output.raster.bars import Status, draw_footer, draw_header
-from mars2d.output.raster.picture import arena_of, summary
+from mars2d.output.raster.bars import Status
+from mars2d.output.raster.layout import Layout
+from mars2d.output.raster.picture import arena_of
 from mars2d.record.frame import Frame
 from mars2d.scenario.examples import experiment_name
 from mars2d.scenario.scenario import Scenario
@@ -39,6 +39,7 @@ from mars2d.window.screen.display import Preferences
 from mars2d.window.screen.picking import Selection, body_at, next_body
 from mars2d.window.screen.source import Playback, Source
 from mars2d.window.screen.viewpoint import Viewpoint
+from mars2d.window.widgets.actions import Action
 from mars2d.window.widgets.menu import Entry
 from mars2d.window.widgets.prompt import Answer
 from mars2d.world.timeline import Timeline
@@ -48,9 +49,6 @@ if TYPE_CHECKING:
 
 CHANGED = "This run was changed by hand, and is not saved."
 TYPING = (pygame.KEYDOWN, pygame.TEXTINPUT, pygame.TEXTEDITING)
-USUAL = (
-    ("Space", "pause"), ("← →", "step"), ("+ \N{MINUS SIGN}", "speed"), ("F1", "help"),
-)  # fmt: skip
 BY_HAND = (("↑ ↓ ← →", "drive"), ("Shift", "slowly"), ("H", "let go"), ("F1", "help"))
 """The keys that the footer names; a game's panel has its own."""
 
@@ -91,7 +89,7 @@ class Window(PlayerWindow):
         self.viewpoint = Viewpoint(source.scenario, self._layout(size), bounds)
         self._leave_out_names(self.layout.ui)
         self.mouse = self.grab = Grab(
-            self.player, self.viewpoint, self._controls.handles, self._place,
+            self.player, self.viewpoint, self.handles, self._place,
             self.director.change, partial(self.notes.say, kind="warning"),
             {pygame.BUTTON_LEFT: self._select_at, pygame.BUTTON_RIGHT: self._offer},
         )  # fmt: skip
@@ -178,7 +176,7 @@ class Window(PlayerWindow):
             if not (self.game.seats or self.menu.is_open):
                 self._offer_roles(self.game)
         self.director.steer(seconds)
-        self.grab.tick()
+        self.grab.tick(self._pointer)
         self.dock.parameters.tick()
         self.player.pass_time(seconds)
         if self.dock.predictions.look(playing=self.player.playing):
@@ -212,8 +210,8 @@ class Window(PlayerWindow):
             self._cast, self.viewpoint.following = cast, None
             self.select(None)
             self.director.release()
-            self.grab.cancel()
-            self.grab.leave()
+            self.grab.let_go()
+            self.grab.over = None
 
     # -- drawing --------------------------------------------------------------------------------
 
@@ -221,42 +219,38 @@ class Window(PlayerWindow):
         """Draw the window or its editor on a surface; the layout follows its size."""
         if self.editor is not None:
             self.editor.draw(surface)
-            return
-        try:
-            self._draw(surface, self.layers, notes=notes)
-        except Mars2dError as error:  # raised by the drawing of an add-on or a sensor
-            self.player.fail(error)
-            self._draw(surface, self._own_layers(), notes=notes)
+        else:
+            super().draw(surface, notes=notes)
 
-    def _draw(self, surface: pygame.Surface, layers: Layers, *, notes: bool) -> None:
+    def _draw_picture(self, surface: pygame.Surface, layout: Layout, layers: Layers) -> None:
         frame, painter = self.grab.shown(self.player.frame), self.looks.painter
-        layout = self._layout(surface.get_size())
-        painter.ui, self.grab.click = layout.ui, CLICK * layout.ui
+        self.grab.click = CLICK * layout.ui
         self.dock.inspector.frames = self.director.drives
         bounds = self.viewpoint.bounds or frame.scenario.bounds
         room = self.dock.arrange(layout, frame, bounds)
         self.viewpoint.arrange(layout, frame.scenario, room)
-        pointer = None if self._pointer is None else self._point_at(self._pointer)
-        self._arena.draw(surface, frame, self.viewpoint, layers, self.dock.free, pointer)
+        pointer = None if self._pointer is None else self.viewpoint.point_at(self._pointer)
+        self._arena.draw(surface, frame, layers, self.dock.free, pointer)
         self._draw_dock(surface, frame)
-        if notes and not self.saver.filming:
-            self._draw_notes(surface)
         self.tools.stopwatch.draw(surface, self.viewpoint.room, painter, frame.time)
-        draw_header(surface, layout, painter, frame, self._status())
-        self._controls.draw(surface, layout, painter, self._pointer, self.mouse.drags)
-        hints = () if self.game is not None else BY_HAND if self.director.drives else USUAL
-        if self.director.drives and not self.player.playing:
-            hints = (("Space", "go on"), *hints)
-        draw_footer(surface, layout, painter, self._ending.banner(), summary(frame), hints)
-        if notes:
-            if self.menu.name == "roles":
-                plate = pygame.Rect((0, 0), self.menu.size(painter))
-                plate.center = self.viewpoint.room.center
-                self.menu.corner = plate.topleft
-            if self.game is not None and self.game.counting:
-                draw_countdown(surface, self.viewpoint.room, painter, self.game.counting)
-            self.toolbar.draw(surface, layout, painter, self._pointer)
-        self.help.draw(surface, layout, painter, keys.GROUPS.items())
+        if self.game is not None and self.game.counting:
+            draw_countdown(surface, self.viewpoint.room, painter, self.game.counting)
+        if self.menu.name == "roles":
+            plate = pygame.Rect((0, 0), self.menu.size(painter))
+            plate.center = self.viewpoint.room.center
+            self.menu.corner = plate.topleft
+
+    @property
+    def _hints(self) -> Sequence[tuple[str, str]]:
+        if self.game is not None:
+            return ()
+        if not self.director.drives:
+            return super()._hints
+        return BY_HAND if self.player.playing else (("Space", "go on"), *BY_HAND)
+
+    def _helps(self) -> Iterator[tuple[str, Sequence[Action]]]:
+        yield from super()._helps()
+        yield "Mouse", keys.MOUSE
 
     def _draw_notes(self, surface: pygame.Surface) -> None:
         off, painter = self._selected_pixel(self.player.frame), self.looks.painter
@@ -349,11 +343,6 @@ class Window(PlayerWindow):
         over = self.help.is_open or self.dock.covers(pixel) or self.toolbar.covers(pixel)
         return pixel if self.layout.plot.collidepoint(pixel) and not over else None
 
-    def _point_at(self, pixel: Pixel) -> Point:
-        """Return the point [m] at a pixel."""
-        ((x, y),) = self.camera.to_world([pixel]).tolist()
-        return x, y
-
     def _is_on(self, action: str) -> bool:
         return self.dock.is_on(action) or {
             "contacts": self.player.stops,
@@ -375,7 +364,7 @@ class Window(PlayerWindow):
     def _offer_by_key(self) -> None:
         """Open the menu of the selected body, or of the middle of the floor."""
         frame, body = self.player.frame, self.selected
-        middle = self._point_at(self.viewpoint.room.center)
+        middle = self.viewpoint.point_at(self.viewpoint.room.center)
         self._offer_at(middle if body is None else frame.body_pose(body)[:2])
 
     def _offer(self, point: Point) -> None:
@@ -404,7 +393,7 @@ class Window(PlayerWindow):
         """Return a command before which a drag of a body ends."""
 
         def acts() -> None:
-            self.grab.cancel()
+            self.grab.let_go()
             act()
 
         return acts
@@ -416,7 +405,7 @@ class Window(PlayerWindow):
             self.game.begin()
 
     def _restart(self) -> None:
-        self.grab.cancel()
+        self.grab.let_go()
         super()._restart()
         if self.game is not None:
             self.dock.named("score").open()
@@ -466,7 +455,7 @@ class Window(PlayerWindow):
     def _end_activity(self) -> bool:
         """End a drag, measuring or driving, select nothing, pause a game; return whether it did."""
         if self.grab.busy:
-            self.grab.cancel()
+            self.grab.let_go()
         elif self.tools.ruler.on:
             self.tools.ruler.end()
         elif self.director.drives and self.game is None:
@@ -506,7 +495,7 @@ class Window(PlayerWindow):
 
     def _open_editor(self) -> None:
         """Open the editor on the scenario as it is now."""
-        self.grab.let_go()
+        self.grab.cancel()
         self.editor = self.director.editor(self.looks)
         if self.editor is not None:
             self.editor.viewpoint.look_as(self.viewpoint)

@@ -243,8 +243,9 @@ class Player:
 
     def set_speed(self, speed: float) -> None:
         """Play at a factor of real time; inf: as fast as possible."""
-        self.speed = speed
-        self._pace.clear()
+        if speed != self.speed:
+            self.speed = speed
+            self._pace.clear()
 
     def faster(self) -> None:
         """Go one rung up; from manual mode to the lowest rung."""

@@ -10,6 +10,7 @@ from math import exp, hypot, log
 import numpy as np
 import pygame
 
+from mars2d.core.plane import Point
 from mars2d.output.layers.bodies import bounding_circle
 from mars2d.output.raster.camera import FARTHEST, NEAREST, Camera
 from mars2d.output.raster.layout import Bounds, Layout, fitted
@@ -76,6 +77,11 @@ class Viewpoint:
     def hurried(self) -> bool:
         """Whether the camera is moving."""
         return time.perf_counter() < self._hurry
+
+    def point_at(self, pixel: tuple[int, int]) -> Point:
+        """Return the point [m] that is seen at a pixel."""
+        ((x, y),) = self.camera.to_world([pixel]).tolist()
+        return x, y
 
     def arrange(self, layout: Layout, scenario: Scenario, room: pygame.Rect | None = None) -> None:
         """Change the layout. The view stays in place, or fitted to the workspace if it was.
