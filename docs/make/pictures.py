@@ -176,7 +176,7 @@ def hands(path: Path) -> None:
     pygame.display.init()  # for the keys that are held
     player = SimpleNamespace(playing=True, frame=world.frame)
     view = SimpleNamespace(camera=camera, point_at=lambda at: tuple(camera.to_world([at])[0]))
-    mouse = Grab(player, view, [], lambda at: at, lambda act: act(world) or True, print, {})
+    mouse = Grab(player, view, [], lambda at: at, lambda act: act(world) or True, {})
 
     def pixel(x: float, y: float) -> tuple[int, int]:
         return tuple(camera.to_pixels([(x, y)])[0].astype(int))

@@ -40,11 +40,9 @@ class Person:
 
     def __init__(self, scenario=SCENARIO, playing=False, recording=False):
         self.world, self.playing, self.recording = World(scenario), playing, recording
-        self.said, self.clicked, self.now = [], [], 0.0
-        self.grab = Grab(
-            self, VIEW, [], lambda pixel: pixel, self.change,
-            self.said.append, {LEFT: self.clicked.append}, clock=lambda: self.now,
-        )  # fmt: skip
+        self.said, self.clicked = [], []
+        clicks = {LEFT: self.clicked.append}
+        self.grab = Grab(self, VIEW, [], lambda pixel: pixel, self.change, clicks)
 
     @property
     def frame(self):
@@ -81,7 +79,6 @@ class Person:
         for _ in range(steps):
             self.grab.tick(self.pointer)
             self.world.step()
-            self.now += 0.1
 
     def shown(self):
         return self.grab.shown(self.frame)
@@ -224,12 +221,15 @@ def test_where_it_can_not_stay_this_is_said_in_red_and_it_springs_back():
     assert person.shown().pose[:, 0].tolist() == [0, 0, 0]
 
 
-def test_what_a_joint_holds_is_not_carried_and_this_is_said():
+def test_what_a_joint_holds_springs_back_and_this_is_said():
     rope = Rope(a="red", b="blue", length=2.0)
     person = Person(Scenario(robots=SCENARIO.robots, joints=[rope]))
     person.press(0, 0)
     person.move(0, -1)
-    assert person.said == ["red can't be put elsewhere: a joint holds it; it can be pulled"]
+    words = "red can't be put elsewhere: a joint holds it; it can be pulled"
+    assert person.words() == [words]
+    person.release(0, -1)
+    assert person.said == [words]
     assert person.shown().pose[:, 0].tolist() == [0, 0, 0]
 
 

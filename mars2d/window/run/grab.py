@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from math import atan2, cos, dist, hypot, pi, sin
@@ -37,22 +36,20 @@ from mars2d.window.run.push import SECONDS, draw_pushes, pull_of, stiffness_of
 from mars2d.window.screen.picking import body_at
 from mars2d.window.screen.player import Player
 from mars2d.window.screen.viewpoint import Viewpoint
-from mars2d.world.operator import fixed, forceless
+from mars2d.world.operator import fixed
 from mars2d.world.world import World
 
 CLICK = 5.0
 """A press that moves by less than this is a click, points."""
-LONG = 0.3
-"""A press that lasts longer than this, while time passes, grabs the body, seconds."""
 
 
 class Grab(Mouse):
     """The mouse on a picture with bodies.
 
     handles, place: as for `Mouse`. change: does something to the world, and returns whether that
-    was possible, or says why not. say: shows a text to the person. clicks: called with the point
-    [m] that was clicked, by the button. click: how far a click may move, pixels. over: the body
-    under the pointer, of `Scenario.bodies`.
+    was possible, or says why not. clicks: called with the point [m] that was clicked, by the
+    button. click: how far a click may move, pixels. over: the body under the pointer, of
+    `Scenario.bodies`.
     """
 
     def __init__(
@@ -62,13 +59,11 @@ class Grab(Mouse):
         handles: Sequence[Handle],
         place: Callable[[Pixel], Pixel | None],
         change: Callable[[Callable[[World], None]], bool],
-        say: Callable[[str], None],
         clicks: Mapping[int, Callable[[Point], None]],
-        clock: Callable[[], float] = time.monotonic,
     ) -> None:
         super().__init__(viewpoint, handles, place)
-        self.player, self.change, self.say, self.clock = player, change, say, clock
-        self._clicks, self.click = clicks, CLICK
+        self.player, self.change, self._clicks = player, change, clicks
+        self.click = CLICK
         self.over: int | None = None
 
     @property
@@ -145,34 +140,23 @@ class Grab(Mouse):
 
 
 class Hold(Drag):
-    """A drag of a body, which begins where the press has moved far enough, or lasts long.
+    """A drag of a body of the picture.
 
     grip: where the body was pressed, in its own frame. running: whether time passes.
     """
-
-    refused = staticmethod(forceless)
-    """Returns the reason why a body can't be dragged so, or ""."""
 
     def __init__(self, grab: Grab, body: int, pixel: Pixel) -> None:
         frame, self.start = grab.player.frame, grab.viewpoint.point_at(pixel)
         self._grab, self.body, self.running = grab, body, grab.player.playing
         self.before = self.now = frame.body_pose(body)
         self.grip = within(frame.scenario.bodies[body], local_point(frame, body, self.start))
-        self._since, self.begun = grab.clock(), False
+        self.begun = False
 
     def move(self, pixel: Pixel) -> None:
-        """Move to a pixel; if the body can't be dragged so, say why, and end."""
-        grab = self._grab
-        late = self.running and grab.clock() - self._since > LONG
-        if not self.begun and (late or dist(pixel, grab.pressed) >= grab.click):
-            self.begun = True
-            if fault := self.refused(grab.player.frame.scenario, self.body):
-                grab.drag = None
-                instead = "pause, and put it elsewhere" if self.running else "put it elsewhere"
-                grab.say(fault.replace("put it elsewhere", instead))
-                return
+        """Move to a pixel; it begins a few pixels from the press."""
+        self.begun = self.begun or dist(pixel, self._grab.pressed) >= self._grab.click
         if self.begun:
-            self.go(grab.viewpoint.point_at(pixel))
+            self.go(self._grab.viewpoint.point_at(pixel))
 
     def end(self) -> None:
         """Do to the body what was shown."""
@@ -264,8 +248,6 @@ class Aim(Hold):
 class Placement(Hold):
     """Moves a body while time stands still; at the end it gets its new pose, `now`."""
 
-    refused = staticmethod(fixed)
-
     def go(self, point: Point) -> None:
         """Move the body by as much as the pointer."""
         (x, y, theta), (u, v) = self.before, self.start
@@ -292,10 +274,10 @@ class Placement(Hold):
     def draw(self, scene: Scene, frame: Frame, camera: Camera) -> None:
         """Draw the former place, and the new one with why the body can't stay there."""
         scenario, there = frame.scenario, self.shown(frame)
-        fault = obstruction(scenario, there.all_poses, self.body)
-        color = BAD if fault else GOOD
+        held, fault = fixed(scenario, self.body), obstruction(scenario, there.all_poses, self.body)
+        color = BAD if held or fault else GOOD
         draw_ring(scene, there, self.body, color, 2.5)
-        words = f"would {fault}" if fault else self.words()
+        words = held or (f"would {fault}" if fault else self.words())
         draw_label(scene, there, camera, self.body, words, color, "below")  # names are above
         self.draw_way(scene, frame, color)
 

@@ -19,7 +19,6 @@ from mars2d.window.screen.picking import Selection
 from mars2d.window.screen.player import Player
 from mars2d.window.widgets.notes import Notes
 from mars2d.window.widgets.prompt import Answer, Prompts
-from mars2d.world.operator import forceless
 
 End = Point | int
 """A point of the floor [m], or a body, with which the ruler's end moves."""
@@ -141,8 +140,6 @@ class Tools:
         body, frame = self._selection.body, self._player.frame
         if body is None:
             self._notes.say("Tab selects what is pushed", "warning")
-        elif fault := forceless(frame.scenario, body):
-            self._notes.say(fault, "warning")
         else:
 
             def push(text: str) -> None:

@@ -88,11 +88,9 @@ class Window(PlayerWindow):
         bounds = source.bounds if isinstance(source, Playback) else None
         self.viewpoint = Viewpoint(source.scenario, self._layout(size), bounds)
         self._leave_out_names(self.layout.ui)
-        self.mouse = self.grab = Grab(
-            self.player, self.viewpoint, self.handles, self._place,
-            self.director.change, partial(self.notes.say, kind="warning"),
-            {pygame.BUTTON_LEFT: self._select_at, pygame.BUTTON_RIGHT: self._offer},
-        )  # fmt: skip
+        clicks = {pygame.BUTTON_LEFT: self._select_at, pygame.BUTTON_RIGHT: self._offer}
+        change, view = self.director.change, self.viewpoint
+        self.mouse = self.grab = Grab(self.player, view, self.handles, self._place, change, clicks)
         self._arena = Arena(painter, source, self.grab, self.selection, self.tools.ruler)
         timeline = self.director.timeline
         self._reload = None if timeline is None else Reload(timeline, self._show_way_back)
