@@ -122,7 +122,7 @@ def of_run(window):
         "busy": window.grab.busy,
         "driving": next(iter(director.driven), None),
         "selected": window.selected,
-        "following": window.viewpoint.following is not None,
+        "following": window.viewpoint.following,
         "scale": round(window.camera.scale, 3),
         "origin": [round(window.camera.x, 1), round(window.camera.y, 1)],
         "layers": {layer.name: layer.name in window.layers.on for layer in LAYERS},

@@ -160,8 +160,7 @@ class Window(PlayerWindow):
         counts = self.game is not None and self.game.counting > 0
         drives = self.director.drives and self.game is None
         acts = self.grab.busy or self.saver.filming or self.editor is not None
-        follows = self.viewpoint.following is not None
-        return counts or drives or acts or follows or super()._moves
+        return counts or drives or acts or self.viewpoint.following or super()._moves
 
     def _pass_time(self, seconds: float) -> None:
         if self.editor is not None:
@@ -205,7 +204,7 @@ class Window(PlayerWindow):
         self._seen = now
         self.dock.scopes.meet(scenario)
         if self._cast != (cast := _cast(scenario)):
-            self._cast, self.viewpoint.following = cast, None
+            self._cast, self.viewpoint.following = cast, False
             self.select(None)
             self.director.release()
             self.grab.let_go()
@@ -259,7 +258,7 @@ class Window(PlayerWindow):
         """Draw the panels, away from the selected body where the arena makes no room for them."""
         beside = self.viewpoint.makes_room and self.dock.beside
         spot = None if beside else self._selected_pixel(frame)
-        drives = self.director.drives and self.viewpoint.following is None
+        drives = self.director.drives and not self.viewpoint.following
         free = self.viewpoint.seen if drives else None
         self.dock.draw(surface, frame, spot, self._pointer, free=free)
 
@@ -345,7 +344,7 @@ class Window(PlayerWindow):
         return self.dock.is_on(action) or {
             "contacts": self.player.stops,
             "drive": self.director.drives,
-            "follow": self.viewpoint.following is not None,
+            "follow": self.viewpoint.following,
             "film": self.saver.filming,
         }.get(action, super()._is_on(action))
 
@@ -433,7 +432,7 @@ class Window(PlayerWindow):
     def _follow_or_not(self) -> None:
         """Let the camera follow the selected body or all robots, or stop following."""
         self.viewpoint.follow(self.selected)
-        if self.viewpoint.following is None:
+        if not self.viewpoint.following:
             self.notes.say("the camera stays where it is; F shows all")
             return
         bodies = self.player.source.scenario.bodies
