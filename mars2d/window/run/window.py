@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
+from operator import is_
 from typing import TYPE_CHECKING
 
 import pygame
@@ -41,6 +42,7 @@ from mars2d.window.screen.source import Playback, Source
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.actions import Action
 from mars2d.window.widgets.menu import Entry
+from mars2d.window.widgets.notes import Notes
 from mars2d.window.widgets.prompt import Answer
 from mars2d.world.timeline import Timeline
 
@@ -94,19 +96,19 @@ class Window(PlayerWindow):
         self._arena = Arena(painter, source, self.grab, self.selection, self.tools.ruler)
         timeline = self.director.timeline
         self._reload = None if timeline is None else Reload(timeline, self._show_way_back)
-        self._seen: tuple[object, ...] = ()  # the scenario and the experiment
+        self._seen: tuple[object, object] = (None, None)  # the scenario and the experiment
         self._cast = _cast(source.scenario)
         self._actions |= {
             "contacts": self._stop_or_go_on,
             "source": lambda: self._ending.open_source(self.notes),
             "within": partial(self._step_within, 1),
             "within_back": partial(self._step_within, -1),
-            "branch": self._without_drag(self.director.other_branch),
-            "undo": self._without_drag(self._undo),
+            "branch": self._other_branch,
+            "undo": self._undo,
             "scopes": lambda: self.toolbar.open("scopes", self._plots),
             "select": lambda: self.select(next_body(self.player.frame, self.selected)),
             "follow": self._follow_or_not,
-            "offer": self._offer_by_key,
+            "offer": self._offer_at,
             "drive": self._drive_or_not,
             "edit": self._open_editor,
             "film": self.saver.film_or_not,
@@ -199,7 +201,7 @@ class Window(PlayerWindow):
         """Where the run has become another, release and deselect bodies that it may not have."""
         scenario, timeline = self.player.source.scenario, self.director.timeline
         now = scenario, None if timeline is None else timeline.experiment
-        if all(one is other for one, other in zip(now, self._seen, strict=False)) and self._seen:
+        if all(map(is_, now, self._seen)):
             return
         self._seen = now
         self.dock.scopes.meet(scenario)
@@ -226,7 +228,8 @@ class Window(PlayerWindow):
         bounds = self.viewpoint.bounds or frame.scenario.bounds
         room = self.dock.arrange(layout, frame, bounds)
         self.viewpoint.arrange(layout, frame.scenario, room)
-        pointer = None if self._pointer is None else self.viewpoint.point_at(self._pointer)
+        over = None if self._pointer is None else self._place(self._pointer)
+        pointer = None if over is None else self.viewpoint.point_at(over)
         self._arena.draw(surface, frame, layers, self.dock.free, pointer)
         self._draw_dock(surface, frame)
         self.tools.stopwatch.draw(surface, self.viewpoint.room, painter, frame.time)
@@ -240,7 +243,8 @@ class Window(PlayerWindow):
     @property
     def _hints(self) -> Sequence[tuple[str, str]]:
         if self.game is not None:
-            return ()
+            keys_of = [(" ".join(seat.keys), seat.role or "drive") for seat in self.game.seats]
+            return [*keys_of, ("Space", "pause"), ("F1", "help")]
         if not self.director.drives:
             return super()._hints
         return BY_HAND if self.player.playing else (("Space", "go on"), *BY_HAND)
@@ -358,22 +362,19 @@ class Window(PlayerWindow):
         else:
             self.select(body)
 
-    def _offer_by_key(self) -> None:
-        """Open the menu of the selected body, or of the middle of the floor."""
-        frame, body = self.player.frame, self.selected
-        middle = self.viewpoint.point_at(self.viewpoint.room.center)
-        self._offer_at(middle if body is None else frame.body_pose(body)[:2])
-
     def _offer(self, point: Point) -> None:
         """Select the thing at a point [m] of the picture, and open its menu."""
         self.tools.ruler.end()
         self._select_at(point)
         self._offer_at(point)
 
-    def _offer_at(self, point: Point) -> None:
-        """Open the menu of what can be done with what is selected, or at a point [m]."""
-        ((x, y),) = self.camera.to_pixels([point]).astype(int).tolist()
+    def _offer_at(self, point: Point | None = None) -> None:
+        """Open the menu of what is selected, or of a point [m] of the floor, else of its middle."""
         frame, body, live = self.player.frame, self.selected, self.director.timeline is not None
+        if point is None:
+            middle = self.viewpoint.point_at(self.viewpoint.room.center)
+            point = middle if body is None else frame.body_pose(body)[:2]
+        ((x, y),) = self.camera.to_pixels([point]).astype(int).tolist()
         if body is None:
             entries = entries_of_place(point, self._actions, self.tools.measure_from, live=live)
         else:
@@ -386,17 +387,14 @@ class Window(PlayerWindow):
 
     # -- commands -------------------------------------------------------------------------------
 
-    def _without_drag(self, act: Callable[[], None]) -> Callable[[], None]:
-        """Return a command before which a drag of a body ends."""
-
-        def acts() -> None:
-            self.grab.let_go()
-            act()
-
-        return acts
+    def _other_branch(self) -> None:
+        """Show the branch that was run before a change."""
+        self.grab.let_go()
+        self.director.other_branch()
 
     def _undo(self) -> None:
         """Undo what was done by hand; people who play go on from there."""
+        self.grab.let_go()
         self.director.undo()
         if self.game is not None and self.game.seats:
             self.game.begin()
@@ -507,10 +505,11 @@ class Window(PlayerWindow):
 
     def _show_way_back(self, share: float) -> bool:  # noqa: ARG002
         """Say that a world goes back, which takes a while; return whether it may."""
-        self.notes.say(f"going back to {self.player.frame.time:.1f} s; Esc stays here")
-        surface = pygame.display.get_surface()
+        surface, way = pygame.display.get_surface(), Notes()
         if surface is not None:
-            self.draw(surface)
+            self.draw(surface, notes=False)
+            way.say(f"going back to {self.player.frame.time:.1f} s; Esc stays here")
+            way.draw(surface, self.layout.plot, self.looks.painter, time.monotonic())
             pygame.display.flip()
         leaving = pygame.event.get(pygame.QUIT)
         self._open = self._open and not leaving
