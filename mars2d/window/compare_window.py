@@ -166,7 +166,9 @@ class CompareWindow(PlayerWindow):
         for moment in cut.moments.tolist():
             while step * self.trio.row < moment - 1e-9 and not self.trio.over:
                 self.trio.advance()
-            self._draw_whole(surface, moment, Status(status))
+            layout = self.looks.layout(size, 0.0)
+            latest = self._draw_runs(surface, layout, self.layers, moment)
+            draw_header(surface, layout, self.looks.painter, latest, Status(status))
             yield surface
 
     def _draw_picture(self, surface: pygame.Surface, layout: Layout, layers: Layers) -> None:
@@ -189,13 +191,6 @@ class CompareWindow(PlayerWindow):
         }
         self._plot_place = pygame.Rect(room.left, top + high, room.width, room.bottom - top - high)
         return replace(layout, plot=self.plots[MODES[0]], ui=ui)
-
-    def _draw_whole(self, surface: pygame.Surface, moment: float, status: Status) -> None:
-        """Draw a header, the arenas and the plot at a time [s], without any other bars."""
-        painter, layout = self.looks.painter, self.looks.layout(surface.get_size(), 0.0)
-        self._draw_runs(surface, layout, self.layers, moment)
-        latest = max(self.trio.frames(moment).values(), key=lambda frame: frame.time)
-        draw_header(surface, layout, painter, latest, status)
 
     def _draw_runs(
         self, surface: pygame.Surface, layout: Layout, layers: Layers, moment: float
@@ -262,11 +257,3 @@ class CompareWindow(PlayerWindow):
         """Go to the time at a pixel of the plot."""
         at = self.plot.value_at(pixel[0])
         self.player.go(round(at / self.trio.scenario.sampling_time))
-
-    # -- commands -------------------------------------------------------------------------------
-
-    def _save_picture(self) -> None:
-        """Save a picture of the three arenas and the plot."""
-        surface = pygame.Surface(self.layout.size, 0, 32)
-        self._draw_whole(surface, self.player.frame.time, self._status())
-        self.saver.picture(surface)

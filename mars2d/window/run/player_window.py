@@ -20,7 +20,7 @@ from mars2d.output.layers.table import LAYERS, Layers
 from mars2d.output.raster.bars import Status, draw_footer, draw_header, footer_height
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.layout import Layout
-from mars2d.output.raster.picture import summary
+from mars2d.output.raster.picture import arena_of, summary
 from mars2d.window.run import keys
 from mars2d.window.run.ending import Ending
 from mars2d.window.run.menus import layer_entries
@@ -107,7 +107,8 @@ class PlayerWindow(ABC):
             "farther": lambda: self.viewpoint.zoom(-ZOOM, self.layout.plot.center),
             "fit": self._fit,
             **self.looks.actions,
-            "picture": self._save_picture,
+            "picture": lambda: self.saver.picture(self._picture(self._drawn())),
+            "film": self.saver.film_or_not,
             "help": self.help.turn,
             "leave": self._close,
             "escape": self._escape,
@@ -180,8 +181,12 @@ class PlayerWindow(ABC):
         self.player.drawing = time.perf_counter() - start
 
     def _paint(self, screen: pygame.Surface) -> None:
-        """Draw the next picture of the loop."""
+        """Draw the next picture of the loop, and add it to the film."""
         self.draw(screen)
+        if self.saver.filming:
+            plot, painter = self.layout.plot, self.looks.painter
+            self.saver.film(self._picture(screen), screen, plot, painter)
+            self._draw_notes(screen)  # which are not part of the film
 
     # -- waiting for a law ----------------------------------------------------------------------
 
@@ -246,6 +251,17 @@ class PlayerWindow(ABC):
         if notes:
             self.toolbar.draw(surface, layout, painter, pointer)
         self.help.draw(surface, layout, painter, [*self._helps()])
+
+    def _drawn(self) -> pygame.Surface:
+        """Return a picture of the window without notes and menus."""
+        surface = pygame.Surface(self.layout.size, 0, 32)
+        self.draw(surface, notes=False)
+        return surface
+
+    def _picture(self, window: pygame.Surface) -> pygame.Surface:
+        """Return the picture that a drawn window shows, without its own bars."""
+        banner, layout = self._ending.banner(), self._layout(window.get_size())
+        return arena_of(window, layout, self.looks.painter, self.player.frame, banner)
 
     @abstractmethod
     def _draw_picture(self, surface: pygame.Surface, layout: Layout, layers: Layers) -> None:
@@ -323,6 +339,7 @@ class PlayerWindow(ABC):
             "pause": self.player.playing,
             "layers": self.menu.name == "layers",
             "help": self.help.is_open,
+            "film": self.saver.filming,
         }.get(action, self.looks.is_on(action))
 
     # -- commands -------------------------------------------------------------------------------
@@ -335,10 +352,6 @@ class PlayerWindow(ABC):
         """Start again, with the file as it is now."""
         self.notes.clear()
         self.player.restart()
-
-    @abstractmethod
-    def _save_picture(self) -> None:
-        """Save a picture, without the notes."""
 
     def _to_contact(self, go: Callable[[], None]) -> None:
         """Go to a contact; forces are shown there."""

@@ -14,8 +14,6 @@ from mars2d.core.plane import Point
 from mars2d.output.layers.table import Layers
 from mars2d.output.raster.bars import Status
 from mars2d.output.raster.layout import Layout
-from mars2d.output.raster.picture import arena_of
-from mars2d.record.frame import Frame
 from mars2d.scenario.examples import experiment_name
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.panels.panels import Panels
@@ -23,12 +21,8 @@ from mars2d.window.run import keys
 from mars2d.window.run.arena import Arena
 from mars2d.window.run.countdown import draw_countdown, entries_of_roles
 from mars2d.window.run.director import Director
-from mars2d.window.run.grab import CLICK, Grab
-from mars2d.window.run.menus import (
-    entries_of_body,
-    entries_of_place,
-    entries_of_scopes,
-)
+from mars2d.window.run.grab import Grab
+from mars2d.window.run.menus import Offers
 from mars2d.window.run.mouse import Pixel
 from mars2d.window.run.play import Play
 from mars2d.window.run.player_window import PlayerWindow
@@ -41,7 +35,6 @@ from mars2d.window.screen.picking import Selection, body_at, next_body
 from mars2d.window.screen.source import Playback, Source
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.actions import Action
-from mars2d.window.widgets.menu import Entry
 from mars2d.window.widgets.notes import Notes
 from mars2d.window.widgets.prompt import Answer
 from mars2d.world.timeline import Timeline
@@ -93,30 +86,31 @@ class Window(PlayerWindow):
         clicks = {pygame.BUTTON_LEFT: self._select_at, pygame.BUTTON_RIGHT: self._offer}
         change, view = self.director.change, self.viewpoint
         self.mouse = self.grab = Grab(self.player, view, self.handles, self._place, change, clicks)
-        self._arena = Arena(painter, source, self.grab, self.selection, self.tools.ruler)
+        self._arena = Arena(source, self.grab, self.selection, self.tools, self.dock)
         timeline = self.director.timeline
         self._reload = None if timeline is None else Reload(timeline, self._show_way_back)
         self._seen: tuple[object, object] = (None, None)  # the scenario and the experiment
         self._cast = _cast(source.scenario)
-        self._actions |= {
+        acts, scopes = self._actions, self.dock.scopes
+        self._offers = Offers(self.player, self.selection, self.tools, scopes, acts)
+        acts |= {
             "contacts": self._stop_or_go_on,
             "source": lambda: self._ending.open_source(self.notes),
             "within": partial(self._step_within, 1),
             "within_back": partial(self._step_within, -1),
             "branch": self._other_branch,
             "undo": self._undo,
-            "scopes": lambda: self.toolbar.open("scopes", self._plots),
+            "scopes": lambda: self.toolbar.open("scopes", self._offers.plots),
             "select": lambda: self.select(next_body(self.player.frame, self.selected)),
             "follow": self._follow_or_not,
             "offer": self._offer_at,
             "drive": self._drive_or_not,
             "edit": self._open_editor,
-            "film": self.saver.film_or_not,
             **self.tools.actions,
             **self.dock.actions,
         }
-        acts = {name: act for name, act in self._actions.items() if name not in self.dock.lacking}
-        self.toolbar = Toolbar(acts, self._is_on, self.menu, live=timeline is not None)
+        there = {name: act for name, act in acts.items() if name not in self.dock.lacking}
+        self.toolbar = Toolbar(there, self._is_on, self.menu, live=timeline is not None)
 
     @property
     def selected(self) -> int | None:
@@ -222,22 +216,14 @@ class Window(PlayerWindow):
             super().draw(surface, notes=notes)
 
     def _draw_picture(self, surface: pygame.Surface, layout: Layout, layers: Layers) -> None:
-        frame, painter = self.grab.shown(self.player.frame), self.looks.painter
-        self.grab.click = CLICK * layout.ui
-        self.dock.inspector.frames = self.director.drives
-        bounds = self.viewpoint.bounds or frame.scenario.bounds
-        room = self.dock.arrange(layout, frame, bounds)
-        self.viewpoint.arrange(layout, frame.scenario, room)
-        over = None if self._pointer is None else self._place(self._pointer)
-        pointer = None if over is None else self.viewpoint.point_at(over)
-        self._arena.draw(surface, frame, layers, self.dock.free, pointer)
-        self._draw_dock(surface, frame)
-        self.tools.stopwatch.draw(surface, self.viewpoint.room, painter, frame.time)
+        frame, drives = self.grab.shown(self.player.frame), self.director.drives
+        self._arena.draw(surface, layout, frame, layers, self._pointer, drives=drives)
+        room, painter = self.viewpoint.room, self.looks.painter
         if self.game is not None and self.game.counting:
-            draw_countdown(surface, self.viewpoint.room, painter, self.game.counting)
+            draw_countdown(surface, room, painter, self.game.counting)
         if self.menu.name == "roles":
             plate = pygame.Rect((0, 0), self.menu.size(painter))
-            plate.center = self.viewpoint.room.center
+            plate.center = room.center
             self.menu.corner = plate.topleft
 
     @property
@@ -254,24 +240,10 @@ class Window(PlayerWindow):
         yield "Mouse", keys.MOUSE
 
     def _draw_notes(self, surface: pygame.Surface) -> None:
-        off, painter = self._selected_pixel(self.player.frame), self.looks.painter
+        off, painter = self._arena.selected_pixel(self.player.frame), self.looks.painter
         plot, now = self.layout.plot, time.monotonic()
-        self.notes.draw(surface, plot, painter, now, self.dock.free, off)
-
-    def _draw_dock(self, surface: pygame.Surface, frame: Frame) -> None:
-        """Draw the panels, away from the selected body where the arena makes no room for them."""
-        beside = self.viewpoint.makes_room and self.dock.beside
-        spot = None if beside else self._selected_pixel(frame)
-        drives = self.director.drives and not self.viewpoint.following
-        free = self.viewpoint.seen if drives else None
-        self.dock.draw(surface, frame, spot, self._pointer, free=free)
-
-    def _selected_pixel(self, frame: Frame) -> tuple[float, float] | None:
-        """Return where the selected body is drawn, if one is selected."""
-        if self.selected is None:
-            return None
-        ((x, y),) = self.camera.to_pixels([frame.body_pose(self.selected)[:2]]).tolist()
-        return x, y
+        if self.editor is None:
+            self.notes.draw(surface, plot, painter, now, self.dock.free, off)
 
     def _status(self) -> Status:
         text, kind = self.player.status()
@@ -284,32 +256,13 @@ class Window(PlayerWindow):
             return Status(f"{text}  {self.director.status}", "hand")
         return Status(text, kind)
 
-    def _paint(self, screen: pygame.Surface) -> None:
-        """Draw the next picture of the loop, and add it to the film."""
-        self.draw(screen)
-        if not self.saver.filming:
-            return
-        whole = self.editor is not None
-        picture = screen if whole else self._picture(screen)
-        self.saver.film(picture, screen, self.layout.plot, self.looks.painter)
-        if not whole:  # notes are not part of the film
-            self._draw_notes(screen)
-
     def arena(self) -> pygame.Surface:
         """Return a picture of the arena alone, without any bars."""
         self.editor = None
         return self._drawn().subsurface(self.layout.plot)
 
-    def _drawn(self) -> pygame.Surface:
-        """Return a picture of the window without notes and menus."""
-        surface = pygame.Surface(self.layout.size, 0, 32)
-        self.draw(surface, notes=False)
-        return surface
-
     def _picture(self, window: pygame.Surface) -> pygame.Surface:
-        """Return the picture that a drawn window shows, without its own bars."""
-        banner, frame = self._ending.banner(), self.player.frame
-        return arena_of(window, self.layout, self.looks.painter, frame, banner)
+        return window if self.editor is not None else super()._picture(window)
 
     # -- events ---------------------------------------------------------------------------------
 
@@ -349,7 +302,6 @@ class Window(PlayerWindow):
             "contacts": self.player.stops,
             "drive": self.director.drives,
             "follow": self.viewpoint.following,
-            "film": self.saver.filming,
         }.get(action, super()._is_on(action))
 
     # -- selecting, and menus -------------------------------------------------------------------
@@ -370,20 +322,13 @@ class Window(PlayerWindow):
 
     def _offer_at(self, point: Point | None = None) -> None:
         """Open the menu of what is selected, or of a point [m] of the floor, else of its middle."""
-        frame, body, live = self.player.frame, self.selected, self.director.timeline is not None
         if point is None:
             middle = self.viewpoint.point_at(self.viewpoint.room.center)
+            body, frame = self.selected, self.player.frame
             point = middle if body is None else frame.body_pose(body)[:2]
         ((x, y),) = self.camera.to_pixels([point]).astype(int).tolist()
-        if body is None:
-            entries = entries_of_place(point, self._actions, self.tools.measure_from, live=live)
-        else:
-            entries = entries_of_body(frame, body, self._actions, live=live)
+        entries = self._offers.at(point)
         self.menu.open("offer", lambda: entries, (x, y))
-
-    def _plots(self) -> list[Entry]:
-        """Return the entries of the menu of plots."""
-        return entries_of_scopes(self.player.frame, self.selected, self.dock.scopes, self._actions)
 
     # -- commands -------------------------------------------------------------------------------
 
@@ -465,10 +410,6 @@ class Window(PlayerWindow):
         else:
             return False
         return True
-
-    def _save_picture(self) -> None:
-        """Save a picture of the arena, without the notes."""
-        self.saver.picture(self._picture(self._drawn()))
 
     def _close(self) -> None:
         """Close the window; if hands did something that would be lost, ask first, once."""

@@ -249,14 +249,12 @@ class Player:
 
     def faster(self) -> None:
         """Go one rung up; from manual mode to the lowest rung."""
-        higher = [rung for rung in SPEEDS if rung > self.speed * (1 + 1e-9)]
-        self.set_speed(higher[0] if higher else inf)
+        self.set_speed(next((rung for rung in SPEEDS if rung > self.speed * (1 + 1e-9)), inf))
 
     def slower(self) -> None:
         """Go one rung down, not below the lowest."""
-        lower = [rung for rung in SPEEDS if rung < self.speed * (1 - 1e-9)]
-        if lower:
-            self.set_speed(lower[-1])
+        lower = (rung for rung in reversed(SPEEDS) if rung < self.speed * (1 - 1e-9))
+        self.set_speed(next(lower, self.speed))
 
     def restart(self) -> None:
         """Start again; a law that has failed is run again."""
