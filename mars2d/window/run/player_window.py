@@ -29,7 +29,7 @@ from mars2d.window.run.timebar import TimeBar, costs
 from mars2d.window.run.toolbar import Toolbar
 from mars2d.window.screen.display import PICTURES_A_SECOND, Preferences, started_display
 from mars2d.window.screen.looks import Looks
-from mars2d.window.screen.player import SPEEDS, Player, time_actions
+from mars2d.window.screen.player import SPEEDS, Player
 from mars2d.window.screen.rest import Rest
 from mars2d.window.screen.saving import Saver
 from mars2d.window.screen.source import Source, Trio
@@ -47,6 +47,8 @@ HINTS = (
 )  # fmt: skip
 NAME = 20.0
 """How far bodies are apart at the start where their names are drawn at first, points."""
+LEAP = 10
+"""How many steps PgDn and PgUp do."""
 ZOOM = 2.0
 """How far a key zooms, in notches of the wheel."""
 THEIRS = ("sensors", "messages", "neighbours", "theory", "addons")
@@ -77,7 +79,8 @@ class PlayerWindow(ABC):
         marked: Source | None = None,
     ) -> None:
         """Prepare; the window opens with `run`. marked: whose events the time bar marks."""
-        self.player, self.size, self.title = Player(source, speed), size, f"{title} - MARS2D"
+        self.player = player = Player(source, speed)
+        self.size, self.title = size, f"{title} - MARS2D"
         self.layers = Layers.of(source.scenario.animation)
         self.help, self.notes, self.menu = Help(), Notes(), Menu()
         self.prompts = Prompts(self.menu)
@@ -95,7 +98,15 @@ class PlayerWindow(ABC):
         self._limit = Deadline(patience(), give_up, self._calls, self._answer)
         self._screen = Lock()  # held by the thread that draws
         self._actions: dict[str, Callable[[], None]] = {
-            **time_actions(self.player),
+            "pause": player.pause_or_resume,
+            "step": player.step,
+            "back": player.back,
+            "leap": partial(player.step, LEAP),
+            "leap_back": partial(player.back, LEAP),
+            "start": partial(player.go, 0),
+            "newest": lambda: player.go(player.source.newest),
+            "faster": player.faster,
+            "slower": player.slower,
             "contact": lambda: self._to_contact(self.player.next_contact),
             "contact_back": lambda: self._to_contact(self.player.last_contact),
             "restart": self._restart,
@@ -135,8 +146,7 @@ class PlayerWindow(ABC):
                 pygame.display.set_caption(self.title)
                 screen = self.looks.open(self.size)
                 self._open = True
-                self.draw(screen)  # before the first law is asked: it may take long
-                pygame.display.flip()
+                self._show_picture(screen)  # before the first law is asked: it may take long
                 with self._limit:
                     self._loop(screen)
             finally:
@@ -160,8 +170,7 @@ class PlayerWindow(ABC):
                 self._rest.stir()
             if not self._rest.resting and (pygame.display.get_active() or self.saver.filming):
                 self._show_picture(pygame.display.get_surface() or screen)
-            if self.player.speed < inf or not self.player.playing:
-                clock.tick(PICTURES_A_SECOND)
+            clock.tick(PICTURES_A_SECOND)
 
     def _pass_time(self, seconds: float) -> None:
         """Advance by seconds of the wall clock."""
@@ -170,7 +179,8 @@ class PlayerWindow(ABC):
     @property
     def _moves(self) -> bool:
         """Whether the next picture may differ from this one though nobody does anything."""
-        return self.player.playing or self.player.busy or len(self.notes) > 0
+        goes_on = self.player.playing or self.player.busy
+        return goes_on or self.saver.filming or len(self.notes) > 0
 
     def _show_picture(self, screen: pygame.Surface) -> None:
         """Draw the window and put it on the screen."""

@@ -155,7 +155,7 @@ class Window(PlayerWindow):
     def _moves(self) -> bool:
         counts = self.game is not None and self.game.counting > 0
         drives = self.director.drives and self.game is None
-        acts = self.grab.busy or self.saver.filming or self.editor is not None
+        acts = self.grab.busy or self.editor is not None
         return counts or drives or acts or self.viewpoint.following or super()._moves
 
     def _pass_time(self, seconds: float) -> None:

@@ -6,7 +6,6 @@ import time
 from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from functools import partial
 from math import inf
 from typing import Literal
 
@@ -20,9 +19,6 @@ from mars2d.window.widgets.slider import BEHIND, times
 Kind = Literal["running", "waiting", "past", "error"]
 Status = tuple[str, Kind]
 """The state of the clock in words, and its kind."""
-
-LEAP = 10
-"""How many steps PgDn and PgUp do."""
 
 SPEEDS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)
 """The rungs of + and -; above them is "max"."""
@@ -326,18 +322,3 @@ class Player:
             self.error = error
         self._met = self.stops and self._meets()
         return not self.failed
-
-
-def time_actions(player: Player) -> dict[str, Callable[[], None]]:
-    """Return the actions of the keys and buttons of time, by name."""
-    return {
-        "pause": player.pause_or_resume,
-        "step": player.step,
-        "back": player.back,
-        "leap": partial(player.step, LEAP),
-        "leap_back": partial(player.back, LEAP),
-        "start": partial(player.go, 0),
-        "newest": lambda: player.go(player.source.newest),
-        "faster": player.faster,
-        "slower": player.slower,
-    }
