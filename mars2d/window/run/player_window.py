@@ -260,7 +260,8 @@ class PlayerWindow(ABC):
         draw_footer(surface, layout, painter, banner, words, self._hints)
         if notes:
             self.toolbar.draw(surface, layout, painter, pointer)
-        self.help.draw(surface, layout, painter, [*self._helps()])
+        if self.help.is_open:
+            self.help.draw(surface, layout, painter, [*self._helps()])
 
     def _drawn(self) -> pygame.Surface:
         """Return a picture of the window without notes and menus."""

@@ -19,6 +19,7 @@ from mars2d.window.screen.picking import Selection
 from mars2d.window.screen.player import Player
 from mars2d.window.widgets.notes import Notes
 from mars2d.window.widgets.prompt import Answer, Prompts
+from mars2d.window.widgets.slider import draw_tooltip
 
 End = Point | int
 """A point of the floor [m], or a body, with which the ruler's end moves."""
@@ -86,13 +87,9 @@ class Stopwatch:
         self, surface: pygame.Surface, room: pygame.Rect, painter: Painter, now: float
     ) -> None:
         """Draw it at the upper edge of the room of the arena."""
-        words, ui = self.words(now), painter.ui
-        if not words:
-            return
-        plate = pygame.Rect(0, 0, painter.fonts.width(words, 14 * ui) + 28 * ui, 30 * ui)
-        plate.midtop = room.centerx, room.top + round(6 * ui)
-        painter.panel(surface, plate, painter.theme.plate, 8 * ui, painter.theme.edge)
-        painter.write(surface, words, 14 * ui, painter.theme.ink, center=plate.center)
+        if words := self.words(now):
+            at = room.centerx, room.top + round(6 * painter.ui)
+            draw_tooltip(surface, painter, words, midtop=at)
 
 
 class Tools:
