@@ -207,7 +207,10 @@ def test_a_drag_of_which_only_press_and_release_are_seen_counts():
     person.press(-1.05, 0.0)
     person.release(-1.05, -1.0)
     assert person.world.prop_pose[:, 0].tolist() == pytest.approx([-1, -1, 0])
-    assert person.clicked == []
+    person.press(-1.05, -1.0)
+    person.move(-1.05, 0.0)
+    person.release(-1.05, -1.0)
+    assert person.clicked == [], "who comes back has not clicked"
 
 
 def test_where_it_can_not_stay_this_is_said_in_red_and_it_springs_back():

@@ -92,6 +92,7 @@ def test_over_it_the_pointers_time_is_shown():
     assert hovered.surface.place("25.0 s").bottom <= hovered.layout.timebar.top
     beside = Drawn(state(), pointer=(pointer[0], 100))
     assert np.array_equal(beside.pixels, plain.pixels)
+    assert not np.array_equal(Drawn(state(), held=True).pixels, plain.pixels), "it is lifted"
 
 
 @THEMES
