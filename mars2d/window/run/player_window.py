@@ -279,7 +279,8 @@ class PlayerWindow(ABC):
         """Draw what is between the bars."""
 
     def _draw_notes(self, surface: pygame.Surface) -> None:
-        self.notes.draw(surface, self.layout.plot, self.looks.painter, time.monotonic())
+        plot = self._layout(surface.get_size()).plot  # of all arenas
+        self.notes.draw(surface, plot, self.looks.painter, time.monotonic())
 
     def _status(self) -> Status:
         """Return the words beside the time."""
