@@ -136,7 +136,7 @@ def test_a_drag_pulls_a_robot_to_the_pointer_and_a_line_shows_how_strongly():
     assert person.world.pose[:2, 0] == pytest.approx((0, -1), abs=0.06)
     person.release(0.0, -1.0)
     assert person.clicked == []
-    assert person.world.operator.pulls == ()
+    assert not person.world.operator.pulls
     person.wait(3)
     assert person.grab.marks(person.frame) != []  # it is over the robot
 
@@ -147,7 +147,7 @@ def test_once_time_stands_still_it_lets_go():
     person.move(0.0, -1.0)
     person.playing = False
     person.grab.tick(person.pointer)
-    assert person.world.operator.pulls == ()
+    assert not person.world.operator.pulls
     assert not person.grab.busy
 
 
