@@ -174,15 +174,16 @@ def hands(path: Path) -> None:
     camera = fitted(world.scenario.bounds, artist.size, artist.layout)
     os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
     pygame.display.init()  # for the keys that are held
-    player, view = SimpleNamespace(playing=True, frame=world.frame), SimpleNamespace(camera=camera)
-    mouse = Grab(player, view, [], lambda at: at, lambda act: act(world) or True, print, {})
+    player = SimpleNamespace(playing=True, frame=world.frame)
+    view = SimpleNamespace(camera=camera, point_at=lambda at: tuple(camera.to_world([at])[0]))
+    mouse = Grab(player, view, [], lambda at: at, lambda act: act(world) or True, {})
 
     def pixel(x: float, y: float) -> tuple[int, int]:
         return tuple(camera.to_pixels([(x, y)])[0].astype(int))
 
     mouse.press(pixel(-1.0, -0.8), pygame.BUTTON_LEFT)
     for k in range(12):
-        mouse.move(pixel(-0.9 + 0.15 * k, -0.7 + 0.1 * k), (0, 0))
+        mouse.move(pixel(-0.9 + 0.15 * k, -0.7 + 0.1 * k))
         world.step()
         player.frame = world.frame
     picture = artist.paint(world.frame)

@@ -346,7 +346,7 @@ def forceless(scenario: Scenario, body: int) -> str:
         return ""
     return (
         f"{scenario.bodies[body].name} can't be pulled: with physics = {scenario.physics!r} no "
-        "forces act; put it elsewhere instead"
+        "forces act; pause, and put it elsewhere"
     )
 
 

@@ -10,9 +10,8 @@ import pygame
 import pytest
 from PIL import Image
 
-from mars2d.window import compare_window
 from mars2d.window.editor_window import EditorWindow
-from mars2d.window.run import controls, window
+from mars2d.window.run import player_window, timebar, window
 from mars2d.window.screen import viewpoint
 from tests.processes import HIDDEN
 from tests.window import states
@@ -366,7 +365,7 @@ def display(monkeypatch):
     monkeypatch.setattr(pygame.mouse, "get_pos", lambda: made.pointer)
     monkeypatch.setattr(pygame.mouse, "get_focused", lambda: True)
     time = SimpleNamespace(monotonic=lambda: made.clock, perf_counter=lambda: made.clock)
-    for module in (window, controls, compare_window, viewpoint):
+    for module in (window, player_window, timebar, viewpoint):
         monkeypatch.setattr(module, "time", time)
     yield made
     pygame.key.set_mods(0)

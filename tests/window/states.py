@@ -96,7 +96,7 @@ def of_run(window):
     player, director = window.player, window.director
     frame, source, timeline = player.frame, player.source, director.timeline
     seen = window.grab.shown(frame)
-    bar, slider = window._controls.time_bar, window._controls.slider
+    bar, slider = window.time_bar, window.slider
     banner = window._ending.banner()
     scopes, plots = window.dock.scopes, window.dock.scopes._plots
     corner = scopes._place.topleft
@@ -122,7 +122,7 @@ def of_run(window):
         "busy": window.grab.busy,
         "driving": next(iter(director.driven), None),
         "selected": window.selected,
-        "following": window.viewpoint.following is not None,
+        "following": window.viewpoint.following,
         "scale": round(window.camera.scale, 3),
         "origin": [round(window.camera.x, 1), round(window.camera.y, 1)],
         "layers": {layer.name: layer.name in window.layers.on for layer in LAYERS},
@@ -168,7 +168,7 @@ def predictions_of(panel):
 
 
 def marks_of(window):
-    return window._controls.time_state().marks
+    return window.time_bar.marks()
 
 
 def game_of(window):
@@ -183,7 +183,7 @@ def game_of(window):
 
 def of_comparison(window):
     player, trio = window.player, window.trio
-    bar = window._controls.time_bar
+    bar = window.time_bar
     return {
         "time": round(player.frame.time, 3),
         "row": trio.row,

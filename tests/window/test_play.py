@@ -202,6 +202,7 @@ def test_a_role_is_chosen_counted_down_and_driven(play, way):
     else:
         person.do("mousemove", *person.state["menu"]["evader"], "click", 1)
     person.until(lambda s: s["game"]["seats"] == [1] and s["game"]["counting"])
+    assert ("↑ ← ↓ →", "evader") in person.shown._hints, "also where the panel has no room"
     assert person.state["time"] == 0
     person.until(lambda s: not s["game"]["counting"] and s["time"] > 0)
     before = person.state["robots"][1]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from copy import copy
 from typing import NamedTuple
 
 import pygame
@@ -258,10 +259,10 @@ class Menu:
         """Draw it within bounds, if it is open; where there is no room for all, a part of it."""
         if self._entries is None:
             return
-        theme, largest = painter.theme, painter.ui
         if self._docked:
-            painter.ui = min(SCALE * largest, bounds.width / LEAST)
-        ui, entries = painter.ui, self._entries()
+            painter, scale = copy(painter), min(SCALE * painter.ui, bounds.width / LEAST)
+            painter.ui = scale
+        theme, ui, entries = painter.theme, painter.ui, self._entries()
         self._arrange(entries, bounds, painter)
         if self._asks:
             draw_veil(surface, painter, bounds)
@@ -277,7 +278,6 @@ class Menu:
             before = self._before(entry, entries, ui)
             self._draw_entry(surface, painter, entry, place, before)
         self._scroll.draw_bar(surface, painter, self.plate.inflate(-4 * ui, -16 * ui))
-        painter.ui = largest
 
     def _arrange(self, entries: Sequence[Entry], bounds: pygame.Rect, painter: Painter) -> None:
         """Place the plate and the entries that are seen, the chosen one among them if sought."""
