@@ -22,7 +22,7 @@ def test_a_click_puts_a_robot_and_a_drag_turns_it(open_editor):
     assert "no robot" in hands.state["fault"]
     hands.tool("r", "robot")
     hands.click(-2, 1)
-    hands.until(lambda s: s["fault"] == "" and s["selection"] == [["robot", 0, 0]])
+    hands.until(lambda s: s["fault"] == "" and s["selection"] == [["robot", 0]])
     hands.drag((2, 1), (2, 2), (2, 3))
     hands.until(lambda s: len(s["robots"]) == 2 and near(s["robots"][1], (2, 1, pi / 2)))
 
@@ -51,7 +51,7 @@ def test_all_props_are_drawn(open_editor):
         hands.click(*corner)
     hands.press("Return")
     hands.until(lambda s: near(s["props"][-1][1:], (-2, -2, 0)))
-    hands.until(lambda s: s["fault"] == "" and s["selection"] == [["prop", 6, 0]])
+    hands.until(lambda s: s["fault"] == "" and s["selection"] == [["prop", 6]])
     for corner in ((0, -3), (1, -2), (1, -3), (0, -2)):
         hands.click(*corner)
     hands.press("Return")
@@ -81,7 +81,7 @@ def test_a_polygon_is_closed_at_its_first_corner(open_editor):
     hands.until(lambda s: s["corners"] == 3)
     hands.click(-2.95, -2.98)
     hands.until(lambda s: s["outlines"] == [[[-3, -3], [0, -3], [0, 0]]])
-    assert hands.state["selection"] == [["outline", 0, 0]]
+    assert hands.state["selection"] == [["outline", 0]]
     hands.click(3, 3)
     hands.press("Escape")
     hands.until(lambda s: s["corners"] == 0 and s["tool"] == "polygon")
@@ -111,7 +111,7 @@ def test_rectangles_beacons_and_the_waypoints_of_the_robot_that_was_clicked(open
     hands.click(3, 2)
     hands.click(2, 3)
     hands.click(-3, 0)
-    hands.until(lambda s: s["selection"] == [["robot", 0, 0]])
+    hands.until(lambda s: s["selection"] == [["robot", 0]])
     hands.click(-3, 2)
     hands.until(lambda s: s["routes"] == [[[-3, 2]], [[3, 2], [2, 3]]])
 
@@ -119,7 +119,7 @@ def test_rectangles_beacons_and_the_waypoints_of_the_robot_that_was_clicked(open
 def test_the_workspace_has_corners_to_drag_to_add_and_to_remove(open_editor):
     hands = open_editor(team((0, 0)))
     hands.press("m")
-    hands.until(lambda s: s["selection"] == [["workspace", 0, 0]])
+    hands.until(lambda s: s["selection"] == [["workspace", 0]])
     hands.drag((5, 5), (4, 4), (4, 3))
     hands.until(lambda s: s["workspace"] == [[-5, -5], [-5, 5], [4, 3], [5, -5]])
     hands.click(0, -5)  # the dot between two corners
@@ -151,14 +151,14 @@ def test_click_shift_click_and_a_rectangle_select(open_editor):
     hands.click(0, 0)
     hands.do("keydown", "shift")
     hands.click(3, 0)
-    hands.until(lambda s: s["selection"] == [["robot", 1, 0], ["robot", 2, 0]])
+    hands.until(lambda s: s["selection"] == [["robot", 1], ["robot", 2]])
     hands.click(0, 0)
-    hands.until(lambda s: s["selection"] == [["robot", 2, 0]])
+    hands.until(lambda s: s["selection"] == [["robot", 2]])
     hands.do("keyup", "shift")
     hands.click(0, 3)
     hands.until(lambda s: s["selection"] == [])
     hands.drag((-4, 1), (-1, 0), (1, -1))
-    hands.until(lambda s: s["selection"] == [["robot", 0, 0], ["robot", 1, 0]])
+    hands.until(lambda s: s["selection"] == [["robot", 0], ["robot", 1]])
     hands.press("ctrl+a", "Delete")
     hands.until(lambda s: s["robots"] == [] and "no robot" in s["fault"])
 
@@ -196,7 +196,7 @@ def test_a_box_is_resized_by_its_corners(open_editor):
     box = Box(pose=(0, 0, pi / 2), length=2, width=0.8)
     hands = open_editor(team((4, 4), props=[box]))
     hands.click(0.3, 0.3)
-    hands.until(lambda s: s["selection"] == [["prop", 0, 0]])
+    hands.until(lambda s: s["selection"] == [["prop", 0]])
     hands.drag((0.4, 1), (1, 1.5), (1.4, 2))
     hands.until(lambda s: near(s["props"][0][1:], (0.5, 0.5, pi / 2, 3, 1.8)))
 
@@ -259,7 +259,7 @@ def test_duplicate_undo_and_redo(open_editor):
     hands = open_editor(team((0, 0)))
     hands.click(0, 0)
     hands.press("ctrl+d")
-    hands.until(lambda s: len(s["robots"]) == 2 and s["selection"] == [["robot", 1, 0]])
+    hands.until(lambda s: len(s["robots"]) == 2 and s["selection"] == [["robot", 1]])
     hands.press("ctrl+z")
     hands.until(lambda s: len(s["robots"]) == 1 and not s["changed"])
     hands.tool("p", "polygon")
@@ -273,7 +273,7 @@ def test_duplicate_undo_and_redo(open_editor):
     hands.press("v", "Tab", "Delete")
     hands.until(lambda s: len(s["robots"]) == 1 and s["selection"] == [])
     hands.press("ctrl+z")
-    hands.until(lambda s: s["selection"] == [["robot", 0, 0]])
+    hands.until(lambda s: s["selection"] == [["robot", 0]])
 
 
 # -- what is wrong --------------------------------------------------------------------------------
@@ -283,7 +283,7 @@ def test_what_is_wrong_is_said_in_words_and_marked_and_not_saved(open_editor, tm
     hands = open_editor(team((-3, 0), (0, 0)))
     hands.drag((-3, 0), (-1, 0), (-0.4, 0))
     hands.until(lambda s: s["fault"] == "robot0 and robot1 overlap by 0.2 m")
-    assert hands.state["culprits"] == [["robot", 0, 0], ["robot", 1, 0]]
+    assert hands.state["culprits"] == [["robot", 0], ["robot", 1]]
     red = (0xA6, 0x1B, 0x1B)
     assert hands.shows(lambda seen: (seen[60:540] == red).all(axis=2).sum() > 40)
     before = (tmp_path / "given.toml").read_bytes()
@@ -458,7 +458,7 @@ def test_it_looks_as_it_did(open_editor):
         )
     )  # fmt: skip
     hands.click(1.9, -0.8)
-    hands.until(lambda s: s["selection"] == [["outline", 0, 0]])
+    hands.until(lambda s: s["selection"] == [["outline", 0]])
     compare("editor_selected", hands.still())
     hands.tool("y", "waypoint")
     hands.click(-1, -3)

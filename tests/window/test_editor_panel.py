@@ -186,7 +186,7 @@ def test_without_a_selection_the_panel_shows_the_scenario_and_who_stands_still(o
         hands.fill(title)
     hands.until(lambda s: s["base"] == ["1e3", 30, "wall"])
     hands.row("robot1 lacks a law")
-    hands.until(lambda s: s["selection"] == [["robot", 1, 0]])
+    hands.until(lambda s: s["selection"] == [["robot", 1]])
 
 
 def test_what_nobody_gave_reads_as_what_it_is_and_can_be_taken_back(open_editor):
@@ -237,7 +237,7 @@ def test_without_a_mouse_everything_is_placed_selected_and_changed(open_editor):
     hands.press("Escape", "Right")
     hands.until(lambda s: s["robots"][0][0] > 1)
     hands.press("Tab")
-    hands.until(lambda s: s["selection"] == [["prop", 0, 0]])
+    hands.until(lambda s: s["selection"] == [["prop", 0]])
 
 
 def typed(hands, *places):
@@ -267,7 +267,7 @@ def test_without_a_mouse_areas_are_drawn_their_corners_changed_and_bodies_tied(o
     hands.press("r")
     typed(hands, "0 1", "2 1")
     hands.press("Escape", "Tab", "Tab", "Tab", "shift+Tab")
-    hands.until(lambda s: s["selection"] == [["robot", 0, 0], ["robot", 1, 0]])
+    hands.until(lambda s: s["selection"] == [["robot", 0], ["robot", 1]])
     for place in ("0.123 2", "robot1"):
         hands.press("F2", "j", "Return", "r", "o", "p", "Return")
         hands.until(lambda s: s["tool"] == "tie")

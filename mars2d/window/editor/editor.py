@@ -27,7 +27,6 @@ from mars2d.window.editor.item import Item, Motion
 from mars2d.window.editor.marks import draw_marks, draw_remarks, minus
 from mars2d.window.editor.properties import Properties
 from mars2d.window.editor.tools import Tool
-from mars2d.window.editor.verdict import Verdict
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.viewpoint import Viewpoint, wheel_notches
 from mars2d.window.widgets.actions import action_of, label_of
@@ -85,7 +84,7 @@ class Editor:
         draft = Draft(scenario)
         if empty:  # no scenario can be without robots
             draft = draft.without([item for item in draft.items() if item.kind == "robot"])
-        self.viewpoint = Viewpoint(draft.sketch, self._laid_out((1280, 720)))
+        self.viewpoint = Viewpoint(draft.sketch, looks.layout((1280, 720)))
         self.desk = Desk(draft, self.viewpoint)
         if changed:
             self.desk.saved = None
@@ -126,12 +125,6 @@ class Editor:
     def layout(self) -> Layout:
         """The layout."""
         return self.viewpoint.layout
-
-    @property
-    def verdict(self) -> Verdict:
-        """The verdict on the drawing; in the middle of a drag, that of before."""
-        desk = self.desk
-        return (desk.settled if self._dragging else desk.draft).verdict
 
     # -- events ---------------------------------------------------------------------------------
 
@@ -186,9 +179,9 @@ class Editor:
         self.desk.say("")
         dx, dy = NUDGES.get(label_of(event).split()[-1], (0, 0))
         if action.name == "nudge":
-            self.desk.nudge(dx, dy, fine=bool(event.mod & pygame.KMOD_SHIFT))
+            self.desk.nudge(dx, dy)
         elif action.name == "rotate":
-            self._turn(-dx, fine=bool(event.mod & pygame.KMOD_SHIFT))
+            self._turn(-dx)
         elif action.act is not None:
             action.act()
 
@@ -232,7 +225,7 @@ class Editor:
         self._dragging = self._panning = False
 
     def _world(self, pixel: tuple[int, int]) -> Point:
-        ((x, y),) = self.desk.camera.to_world([pixel]).tolist()
+        ((x, y),) = self.viewpoint.camera.to_world([pixel]).tolist()
         return x, y
 
     # -- tools and changes ----------------------------------------------------------------------
@@ -292,12 +285,12 @@ class Editor:
             raise InputError(f"{text!r}: expected x y in metres, x y degrees, or a name") from None
         self.tool.put(x, y, None if angle is None else radians(angle))
 
-    def _turn(self, way: int, *, fine: bool) -> None:
-        """Turn the selection: 1 is counter-clockwise, -1 clockwise; fine: by one degree."""
+    def _turn(self, way: int) -> None:
+        """Turn the selection: 1 is counter-clockwise, -1 clockwise; with Shift by one degree."""
         ring, desk = ring_of(self.desk), self.desk
         if ring is None:
             raise InputError("select something that has a direction first")
-        motion = Motion(radians(way * (1.0 if fine else NOTCH)), ring.center)
+        motion = Motion(radians(way * (1.0 if desk.shift else NOTCH)), ring.center)
         desk.put(desk.draft.moved(desk.selection, motion), tag="turn")
 
     def undo(self) -> None:
@@ -313,7 +306,8 @@ class Editor:
         there = plot.collidepoint(self._pointer)
         self.viewpoint.zoom(notches, self._pointer if there else plot.center)
 
-    def _laid_out(self, size: tuple[int, int]) -> Layout:
+    def _arrange(self, size: tuple[int, int]) -> None:
+        """Lay out tools, drawing and panel on a surface of a size, pixels."""
         layout = self.looks.layout(size)
         room, columns = layout.plot.copy(), 1.0 if layout.plot.height >= TALL * layout.ui else 1.6
         left = round(min(columns * WIDTH * layout.ui, max(MAX_SHARE * size[0], NARROW)))
@@ -321,11 +315,7 @@ class Editor:
         free = room.width - ARENA * size[0] * size[1] / room.height
         room.width -= round(max(1, min(PANEL * layout.ui, MAX_PANEL * size[0], free)))
         room.width = max(1, room.width)
-        return replace(layout, plot=room)
-
-    def _arrange(self, size: tuple[int, int]) -> None:
-        layout = self._laid_out(size)
-        self.painter.ui = layout.ui
+        layout, self.painter.ui = replace(layout, plot=room), layout.ui
         if layout != self.layout:  # it does not follow the workspace while that is drawn
             self.viewpoint.arrange(layout, self.desk.draft.sketch)
 
@@ -411,10 +401,10 @@ class Editor:
     def _draw_plot(self, surface: pygame.Surface) -> None:
         scene = Scene()
         draft = self.desk.draft
-        draw_marks(draft, self.desk.selection, self.verdict.culprits, scene)
+        draw_marks(draft, self.desk.selection, self.desk.settled.verdict.culprits, scene)
         self.tool.draw(scene)
-        plot, camera = self.layout.plot, self.desk.camera
-        frame = (draft.bare if self._plain else draft).frame()
+        plot, camera = self.layout.plot, self.viewpoint.camera
+        frame = draft.frame(plain=self._plain)
         if self.names:
             draw_remarks(draft, self.properties.idle(draft), scene)
         layers, hurried = LAYERS.switched(names=self.names), self.viewpoint.hurried
@@ -431,7 +421,7 @@ class Editor:
 
     def _draw_foot(self, surface: pygame.Surface) -> None:
         """Draw what to do, or over the foot of the drawing a message of any length."""
-        desk, verdict, layout = self.desk, self.verdict, self.layout
+        desk, verdict, layout = self.desk, self.desk.settled.verdict, self.layout
         text = PANEL_HINT if self.panel.focused else self.tool.hint
         banner = Banner(desk.notice, error=desk.warns) if desk.notice else None
         if banner is None and verdict.text and desk.draft.base.robots:

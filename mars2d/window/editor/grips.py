@@ -57,14 +57,14 @@ def ring_of(desk: Desk) -> Ring | None:
     """Return the ring, None if the selection can't be turned."""
     draft = desk.draft
     items = [item for item in desk.selection if item.kind != "workspace"]
+    points = [p for item in items for p in draft.corners(item) or [draft.place(item)]]
     body = None if desk.only is None else draft.body(desk.only)
-    if len(items) < 2 and all(item.kind in ("waypoint", "beacon") for item in items):
-        return None
     low, high, above = (desk.metres(points) for points in (MIN_RING, MAX_RING, 16.0))
     if body is not None:
         return Ring(body.pose[:2], min(max(body.bound[1] + above, low), high), body.pose[2])
+    if len(points) < 2:
+        return None
     xmin, ymin, xmax, ymax = shapely.total_bounds([draft.shape(item) for item in items])
-    points = [p for item in items for p in draft.corners(item) or [draft.place(item)]]
     x, y = np.mean(points, axis=0).tolist()  # stays where it is while they turn about it
     radius = hypot(xmax - xmin, ymax - ymin) / 2
     return Ring((tidy(x), tidy(y)), min(max(radius + above, low), high), pi / 2)
@@ -77,8 +77,8 @@ def grips(desk: Desk) -> list[Grip]:
         found.append(_turning(desk, ring))
     if item is None:
         return found
-    corners = desk.draft.corners(item)
-    edges = [*(pairwise(corners) if item.kind == "wall" else edges_of(corners) if corners else ())]
+    corners, line = desk.draft.corners(item), desk.draft.is_line(item)
+    edges = [*pairwise(corners)] if line or not corners else edges_of(corners)
     dots = [
         _cornering(desk, item, k, ((a[0] + b[0]) / 2, (a[1] + b[1]) / 2), new=True)
         for k, (a, b) in enumerate(edges)
@@ -107,14 +107,12 @@ def moving(desk: Desk, grabbed: Item, start: Point) -> Grip:
 
 def _turning(desk: Desk, ring: Ring) -> Grip:
     """Turn the selection about the middle of its ring, with Shift in notches."""
-    draft, items, only, (x, y) = desk.draft, desk.selection, desk.only, ring.center
-    one = only is not None and draft.body(only) is not None
-    zero = 0.0 if one else ring.heading  # from where notches are counted
+    draft, items, (x, y) = desk.draft, desk.selection, ring.center
 
     def to(point: Point) -> Draft:
         step = NOTCH if desk.shift else 1.0 if desk.snaps else 0.1
-        wanted = degrees(angle_of(ring.center, point) - zero)
-        angle = radians(round(wanted / step) * step) - (ring.heading - zero)
+        wanted = degrees(angle_of(ring.center, point))
+        angle = radians(round(wanted / step) * step) - ring.heading
         return draft.moved(items, Motion(angle, ring.center)) if abs(angle) > 1e-12 else draft
 
     handle = x + ring.radius * cos(ring.heading), y + ring.radius * sin(ring.heading)
@@ -141,7 +139,7 @@ def _sides(desk: Desk, item: Item) -> list[Grip]:
 
     def to(fixed: Point, point: Point) -> Draft:
         goal = desk.snapped(point)
-        return draft.with_members([item], lambda prop: spanned(prop, fixed, goal))
+        return draft.with_parts([item], lambda prop: spanned(prop, fixed, goal))
 
     return [Grip(partial(to, corners[k - 2]), corner, "square") for k, corner in enumerate(corners)]
 

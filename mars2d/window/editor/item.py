@@ -7,19 +7,17 @@ from typing import Literal, NamedTuple
 
 from mars2d.core.plane import Point
 
-Kind = Literal["robot", "prop", "outline", "wall", "waypoint", "beacon", "workspace", "joint"]
+Kind = Literal["robot", "prop", "outline", "wall", "route", "beacon", "workspace", "joint"]
 
 
 class Item(NamedTuple):
     """An item of a draft.
 
-    number: its index among the items of its kind; for a waypoint, the index of its robot. part: a
-    waypoint's index on the route.
+    number: its index among the items of its kind; of a route, that of its robot.
     """
 
     kind: Kind
     number: int = 0
-    part: int = 0
 
 
 class Motion(NamedTuple):

@@ -128,7 +128,7 @@ class Properties:
     def _members(self, items: Items) -> Subject:
         draft, put = self._desk.draft, self._desk.put
         parts = [draft.things[item] for item in items]
-        return Subject(parts, lambda f: put(draft.with_members(items, f)))
+        return Subject(parts, lambda f: put(draft.with_parts(items, f)))
 
     def _sensors(self, robots: Items, key: str) -> Subject:
         """Return the sensors of robots with a name; a change to None removes them."""

@@ -128,6 +128,9 @@ class Select(Tool):
         """Begin to drag a handle, an item, or a rectangle round items."""
         desk, self._clicked = self.desk, None
         grip, item = grip_at(desk, point), desk.item_at(point)
+        if grip is None and item is not None and item.kind == "route" and not desk.shift:
+            desk.select([item])  # its waypoints are dragged at once
+            grip = grip_at(desk, point)
         if grip is not None:
             self.begin(grip, point)
             if grip.look == "dot":
@@ -231,8 +234,7 @@ class Place(Tool):
     def _added(self, at: Point) -> tuple[Draft, Item]:
         """Return the draft with one more item at a point, and the item."""
         draft = self.desk.draft.added(self._make(self.desk, at, at))
-        (item,) = draft.things.keys() - self.desk.draft.things.keys()
-        return draft, item
+        return draft, draft.new_since(self.desk.draft)[-1]
 
     def draw(self, scene: Scene) -> None:
         """Draw the outline of what a click would place at the pointer."""
@@ -298,12 +300,12 @@ def waypoint(desk: Desk, start: Point, end: Point) -> Made:
     if not desk.draft.base.robots:
         raise InputError("waypoints belong to a robot: place one first (R)")
     place = start if start == end else desk.snapped(end)
-    return {Item("waypoint", _walker(desk)): place}
+    return {Item("route", _walker(desk)): (place,)}
 
 
 def _walker(desk: Desk) -> int:
     """Return the number of the robot whose route is drawn: the selected one, or else the first."""
-    return next((i.number for i in desk.selection if i.kind in ("robot", "waypoint")), 0)
+    return next((i.number for i in desk.selection if i.kind in ("robot", "route")), 0)
 
 
 # -- what is drawn corner by corner ---------------------------------------------------------------
