@@ -11,7 +11,7 @@ import pytest
 from PIL import Image
 
 from mars2d.window import compare_window
-from mars2d.window.editor_window import EditorWindow
+from mars2d.window.editor import Editor
 from mars2d.window.run import controls, window
 from mars2d.window.screen import viewpoint
 from tests.processes import HIDDEN
@@ -123,15 +123,13 @@ class Person:
 
     @property
     def is_editor(self):
-        return isinstance(self.shown, EditorWindow)
+        return isinstance(self.shown, Editor)
 
     def _edited(self, events):
-        editor = self.shown.editor
+        editor = self.shown
         for event in events:
             if not editor.dialogs.done:
                 editor.handle(event)
-        if editor.dialogs.to_run is not None:
-            self.shown._play()
         if editor.dialogs.done:
             return states.left_editor(editor)
         self.shown.draw(pygame.display.get_surface())

@@ -13,7 +13,6 @@ from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.compare_window import CompareWindow
 from mars2d.window.editor import Editor
-from mars2d.window.editor_window import EditorWindow
 from mars2d.window.run.window import Window
 from mars2d.window.screen.display import Preferences
 from mars2d.window.screen.looks import Looks
@@ -75,7 +74,7 @@ def _source(options):
 
 
 def made_editor(source, folder, path=None, **options):
-    """Return the window of an editor of a scenario, a file, or of nothing yet: "-"."""
+    """Return an editor of a scenario, a file, or of nothing yet: "-"."""
     if isinstance(source, Scenario):
         save_scenario(source, folder / "given.toml")
         source = folder / "given.toml"
@@ -83,7 +82,7 @@ def made_editor(source, folder, path=None, **options):
     scenario = Scenario() if empty else open_experiment(source).scenario
     path = path or (None if empty else source)
     path = None if path is None else Path(path)
-    return EditorWindow(Editor(scenario, Looks(), path=path, empty=empty, **options), (800, 600))
+    return Editor(scenario, Looks(), path=path, empty=empty, **options)
 
 
 def of_window(window):

@@ -9,7 +9,7 @@ from mars2d.addons import Map
 from mars2d.bodies.props import Box
 from mars2d.cli.command_line import main
 from mars2d.scenario import load_scenario
-from mars2d.window import editor_window
+from mars2d.window.editor import editor
 from tests.cases import each_case
 from tests.window.drawing import near, team
 from tests.window.person import compare, differing
@@ -347,7 +347,7 @@ def test_leaving_asks_when_something_would_be_lost(open_editor, tmp_path):
 def test_f5_runs_the_file_and_comes_back(open_editor, monkeypatch):
     ran = []
     monkeypatch.setattr(
-        editor_window, "show_experiment", lambda experiment, *_, **__: ran.append(experiment)
+        editor, "show_experiment", lambda experiment, *_, **__: ran.append(experiment)
     )
     hands = open_editor(team((0, 0), stop_time=0.5))
     hands.drag((0, 0), (1, 0), (2, 0))

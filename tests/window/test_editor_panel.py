@@ -194,7 +194,7 @@ def test_what_nobody_gave_reads_as_what_it_is_and_can_be_taken_back(open_editor)
     hands = chosen(open_editor, Scenario(robots=[Robot(pose=(3, 3, 0))], props=[box]))
     assert ["Mass", "automatic (0.24 kg)"] in hands.state["rows"]
     assert ["Moment", "automatic (0.0016 kg m^2)"] in hands.state["rows"]
-    rows = hands.shown.editor.properties.rows()
+    rows = hands.shown.properties.rows()
     assert all(len(row.title) + len(row.value) <= 25 for row in rows)
     hands.row("Mass")
     hands.fill("1.5")

@@ -1,10 +1,8 @@
-"""The editor's dialogs: save, run, go on with a paused run, leave."""
+"""The editor's dialogs: save, go on with a paused run, leave."""
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass
 from itertools import chain, count
 from pathlib import Path
@@ -32,14 +30,13 @@ class Outcome:
 
 
 class Dialogs(Prompts):
-    """Asks whether to save, run or apply a draft, and does it; keeps the file that it is saved to.
+    """Asks whether to save or apply a draft, and does it; keeps the file that it is saved to.
 
     complete: finishes the outline that is being drawn. path: of the file, None if it has no name
     yet; one that does not end in .toml only lends its name. control: the law of the team. before:
     the scenario of the paused run that is edited, None without one.
 
     new: whether no file exists yet. done: whether the editor is left. outcome: of a paused run.
-    to_run: a file that is to be run.
     """
 
     def __init__(
@@ -55,7 +52,6 @@ class Dialogs(Prompts):
         super().__init__(menu)
         self.done = False
         self.outcome: Outcome | None = None
-        self.to_run: Path | None = None
         self._desk, self._complete = desk, complete
         self._before, self.control = before, control
         self._wanted = (path or Path("scenario.toml")).with_suffix(toml_file.SUFFIX)
@@ -117,32 +113,19 @@ class Dialogs(Prompts):
     def rescue(self) -> Path | None:
         """Save unsaved work to a new file, for when the person can no longer be asked.
 
-        The last valid draft is saved, beside the own file or in the temporary folder. Return the
-        file; None if there is nothing to save.
+        Return the file with the last valid draft; None if there is nothing to save.
         """
         desk = self._desk
-        if self._before is not None or not desk.changed:
-            return None
-        desk.drop()
-        while (scenario := desk.draft.verdict.scenario) is None:
-            if not desk.has(-1):
-                return None
+        while desk.settled.verdict.scenario is None and desk.has(-1):
             desk.go(-1)
-        for folder in (self._wanted.parent, Path(tempfile.gettempdir())):
-            with suppress(InputError):
-                path = free_name(folder, f"{self._wanted.stem}_unsaved", toml_file.SUFFIX)
-                toml_file.save_scenario(scenario, path, self.control)
-                return path
-        return None
+        scenario = desk.settled.verdict.scenario
+        if scenario is None or not desk.changed:
+            return None
+        path = free_name(self._wanted.parent, f"{self._wanted.stem}_unsaved", toml_file.SUFFIX)
+        toml_file.save_scenario(scenario, path, self.control)
+        return path
 
-    # -- run, go on, leave ----------------------------------------------------------------------
-
-    def run(self) -> None:
-        """Ask for a run of the file; save it first if need be."""
-        if self._desk.changed or self.new:
-            self.save(then=self.run)
-        else:
-            self.to_run = self.path
+    # -- go on, leave ---------------------------------------------------------------------------
 
     def apply(self, when: Literal["now", "start"]) -> None:
         """Leave, and continue the paused run with the draft."""
@@ -155,9 +138,9 @@ class Dialogs(Prompts):
         self.outcome, self.done = Outcome(scenario, when), True
 
     def leave(self) -> None:
-        """Leave; ask first if work would be lost."""
+        """Leave; ask first if work would be lost, but not a second time."""
         discard = Answer("discard", lambda _: self._discard(), "Backspace")
-        if not self._desk.changed:
+        if self.prompt is not None or not self._desk.changed:
             self._discard()
         elif self._before is not None:
             now = Answer("from now", lambda _: self.apply("now"))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from math import radians
 from pathlib import Path
@@ -17,6 +17,7 @@ from mars2d.output.layers.table import Layers
 from mars2d.output.raster.bars import Banner, draw_footer, footer_height
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.stage import Stage
+from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor.actions import TOOLS, actions_of
 from mars2d.window.editor.desk import Desk
@@ -29,6 +30,7 @@ from mars2d.window.editor.properties import Properties
 from mars2d.window.editor.tools import Tool
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.viewpoint import Viewpoint, wheel_notches
+from mars2d.window.show import show_experiment
 from mars2d.window.widgets.actions import action_of, label_of
 from mars2d.window.widgets.buttons import Buttons
 from mars2d.window.widgets.help import Help
@@ -78,9 +80,8 @@ class Editor:
         changed: bool = False,
     ) -> None:
         """Open a scenario; nothing is drawn yet."""
-        self.looks, self.live = looks, live
+        self.looks, self.live, self.help = looks, live, Help()
         painter = self.painter = looks.painter
-        self.help = Help()
         draft = Draft(scenario)
         if empty:  # no scenario can be without robots
             draft = draft.without([item for item in draft.items() if item.kind == "robot"])
@@ -115,13 +116,6 @@ class Editor:
         return self.desk.draft.base.title if self.live else self.dialogs.name
 
     @property
-    def note(self) -> str:
-        """What is to be said of the title."""
-        if self.live:
-            return "the run is paused"
-        return "not saved yet" if self.desk.changed else "new" * self.dialogs.new
-
-    @property
     def layout(self) -> Layout:
         """The layout."""
         return self.viewpoint.layout
@@ -132,13 +126,15 @@ class Editor:
         """Handle an event of pygame."""
         try:
             self._take(event)
-        except InputError as error:  # a value that does not go with the others
+        except Mars2dError as error:  # a value that does not go with the others, a run that fails
             self.desk.say(str(error), warns=True)
 
     def _take(self, event: pygame.Event) -> None:
         self.desk.shift = not self._held.isdisjoint((pygame.K_LSHIFT, pygame.K_RSHIFT))
         if self.menu.handle(event):
             pass
+        elif event.type == pygame.QUIT:
+            self.dialogs.leave()
         elif event.type == pygame.KEYDOWN:
             if not self.panel.handle(event):
                 self._press_key(event)
@@ -157,7 +153,10 @@ class Editor:
         elif event.type == pygame.MOUSEBUTTONDOWN:
             self._press(event)
         elif event.type == pygame.MOUSEBUTTONUP:
-            self._release(event)
+            self._panning = False
+            if self._dragging and event.button == pygame.BUTTON_LEFT:
+                self._dragging = False
+                self.tool.release()
 
     def _press_key(self, event: pygame.Event) -> None:
         if self._dragging and event.key == pygame.K_ESCAPE:
@@ -212,12 +211,6 @@ class Editor:
         else:
             self.tool.pointer = None
 
-    def _release(self, event: pygame.Event) -> None:
-        self._panning = False
-        if self._dragging and event.button == pygame.BUTTON_LEFT:
-            self._dragging = False
-            self.tool.release()
-
     def _let_go(self) -> None:
         """Cancel the drag."""
         if self._dragging:
@@ -244,37 +237,37 @@ class Editor:
         if self.layout.plot.collidepoint(self._pointer):
             self.tool.pointer = self._world(self._pointer)
 
-    def select_all(self) -> None:
-        """Select all items."""
+    def select(self, items: Iterable[Item]) -> None:
+        """Take up the arrow, and select items."""
         self.choose("select")
-        self.desk.select(self.desk.draft.items())
+        self.desk.select(items)
 
     def select_workspace(self) -> None:
         """Select the workspace; make one round all that there is if there is none."""
-        self.choose("select")
-        draft, desk, item = self.desk.draft, self.desk, Item("workspace")
+        draft, item = self.desk.draft, Item("workspace")
         if item not in draft.things:
-            desk.put(draft.changed({item: rectangle(*draft.sketch.bounds)}))
-        desk.select([item])
+            self.desk.put(draft.changed({item: rectangle(*draft.sketch.bounds)}))
+        self.select([item])
 
     def select_next(self, *, too: bool = False) -> None:
         """Select the item after that selected last, after the last the first; too: one more."""
         items, chosen = self.desk.draft.items(), self.desk.selection
         place = items.index(chosen[-1]) + 1 if chosen and chosen[-1] in items else 0
-        self.choose("select")
-        self.desk.select([*chosen * too, *items[place % max(1, len(items)) :][:1]])
+        self.select([*chosen * too, *items[place % max(1, len(items)) :][:1]])
 
     def ask_pose(self) -> None:
         """Ask where to put the selection, or a new item."""
         if self.tool_name == "select" and not self.desk.selection:
             raise InputError("select something first, or choose a tool that places items")
-        doc = "such as 1.5 2 90, or the name of a thing that is there"
-        self.dialogs.ask("x y [degrees] =", Answer("apply", self._put), text="", doc=doc)
+        doc, here = "such as 1.5 2 90, or the name of a thing that is there", self.tool.place
+        self.dialogs.ask("x y [degrees] =", Answer("apply", self._put), text=here, doc=doc)
 
     def _put(self, text: str) -> None:
         """Put the selection, or a new item, at typed numbers or where a thing of a name is."""
         draft = self.desk.draft
         named = {draft.name(item): draft.place(item) for item in draft.items()}
+        if text and text == self.tool.place:
+            return  # no digit changes
         if text.strip() in named:
             self.tool.put(*named[text.strip()], None)
             return
@@ -297,6 +290,20 @@ class Editor:
         """Remove the last corner of the outline being drawn, or else undo the last change."""
         if not self.tool.back():
             self.desk.go(-1)
+
+    def run(self) -> None:
+        """Save the file, and run it in a window in the place of this one until that is closed."""
+        path = self.dialogs.path
+        if path is None or self.desk.changed or self.dialogs.new:
+            self.dialogs.save(then=self.run)
+            return
+        try:
+            experiment = open_experiment(path)
+            speed, likes = experiment.scenario.animation.playback_speed, self.looks.preferences
+            show_experiment(experiment, speed, preferences=likes, viewpoint=self.viewpoint)
+        finally:
+            pygame.event.clear()
+            self._held.clear()
 
     # -- the view -------------------------------------------------------------------------------
 
@@ -325,11 +332,8 @@ class Editor:
             self.help.close()
         elif self.tool.cancel():
             pass
-        elif self.tool_name != "select":
-            self.choose("select")
-            self.desk.select()
-        elif self.desk.selection:
-            self.desk.select()
+        elif self.tool_name != "select" or self.desk.selection:
+            self.select(())
         elif self.live:
             self.dialogs.leave()
         else:
@@ -362,7 +366,9 @@ class Editor:
         bar, fonts, pad = self.layout.header, painter.fonts, round(20 * ui)
         surface.fill(theme.bar, bar)
         surface.fill(theme.edge, (bar.left, bar.bottom - 1, bar.width, 1))
-        right, places, note = bar.right - pad, self._header.places, self.note
+        right, places = bar.right - pad, self._header.places
+        note = "not saved yet" if self.desk.changed else "new" * self.dialogs.new
+        note = "the run is paused" if self.live else note
         places.clear()
         for name in reversed([name for name in HEADER if name in self._actions]):
             action = self._actions[name]

@@ -110,7 +110,12 @@ class Properties:
     def __init__(self, editor: Editor) -> None:
         """Show them in the editor's panel."""
         self._editor, self._desk, self._dialogs = editor, editor.desk, editor.dialogs
-        editor.panel.open("properties", self.rows, (0, 0), stays=True)
+        self.focus(keys=False)
+
+    def focus(self, *, keys: bool = True) -> None:
+        """Show them from the first one on; keys: and give them the keys."""
+        self._editor.panel.open("properties", self.rows, (0, 0), stays=True)
+        self._editor.panel.focused = keys
 
     # -- subjects -------------------------------------------------------------------------------
 

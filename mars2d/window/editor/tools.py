@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from math import degrees, radians
 from typing import Any
@@ -71,6 +71,11 @@ class Tool:
         if drag is not None and drag.corner is not None and self.desk.only is not None:
             self.desk.corner = drag.corner
 
+    @property
+    def place(self) -> str:
+        """Where what it holds is, as it can be typed; "" if it holds nothing yet."""
+        return ""
+
     def put(self, x: float, y: float, heading: float | None) -> None:
         """Act like a click at a typed point; heading: radians, None if none was typed."""
 
@@ -109,6 +114,16 @@ class Select(Tool):
     _band: tuple[Point, Point] | None = None
     _kept: tuple[Item, ...] = ()
     _clicked: Item | None = None
+
+    @property
+    def place(self) -> str:
+        """The place of the selection: of its corner, or of a body with its heading in degrees."""
+        desk, draft = self.desk, self.desk.draft
+        if desk.corner is not None:
+            return _typed(desk.corners[desk.corner])
+        body, place = draft.body(desk.selection[0]), draft.place(desk.selection[0])
+        single = body is not None and desk.only is not None
+        return _typed((*place, degrees(body.pose[2]))) if single else _typed(place)
 
     def put(self, x: float, y: float, heading: float | None) -> None:
         """Put the selection at a point: its corner, a body's pose, or an outline's first corner."""
@@ -194,6 +209,11 @@ class Select(Tool):
         if self._band is not None:
             area = rectangle(*bounds_of(self._band))
             scene.polygon(area, fill=faded(MARK, 0.08), stroke=MARK, width=1.0)
+
+
+def _typed(numbers: Iterable[float]) -> str:
+    """Return numbers as they are typed, to the last digit."""
+    return " ".join(repr(tidy(number)).removesuffix(".0") for number in numbers)
 
 
 # -- what is placed by a click, and shaped by a drag ----------------------------------------------
