@@ -240,8 +240,8 @@ def of_editor(editor):
         "changed": desk.changed,
         "corners": len(getattr(editor.tool, "corners", ())),
         "scale": round(desk.viewpoint.camera.scale, 3),
-        "origin": [round(desk.viewpoint.camera.x, 2), round(desk.camera.y, 2)],
-        "camera": [desk.viewpoint.camera.scale, desk.camera.x, desk.camera.y],
+        "origin": [round(desk.viewpoint.camera.x, 2), round(desk.viewpoint.camera.y, 2)],
+        "camera": [desk.viewpoint.camera.scale, desk.viewpoint.camera.x, desk.viewpoint.camera.y],
     }
 
 

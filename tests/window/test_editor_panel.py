@@ -53,7 +53,7 @@ def test_the_robot_to_follow_is_chosen_by_its_name(open_editor):
     hands = chosen(open_editor, team((0, 0), (3, 0)))
     hands.row("Law")
     hands.entry("after another robot")
-    hands.until(lambda s: set(s["menu"]) == {"automatic", "robot1"})
+    hands.until(lambda s: set(s["menu"]) == {"not set", "robot1"})
     hands.entry("robot1")
     hands.until(lambda s: s["laws"][0] == "FollowRobot(leader='robot1')")
 
@@ -108,7 +108,7 @@ def test_mass_friction_and_colour_of_several_bodies_are_set_at_once(open_editor)
     hands.fill("#123456")
     hands.until(lambda s: [c for _, _, c in s["members"]] == ["#123456"] * 3)
     hands.row("Color")
-    hands.entry("automatic")
+    hands.entry("not set")
     hands.until(lambda s: [c for _, _, c in s["members"]] == [None] * 3)
 
 

@@ -167,6 +167,7 @@ class Desk:
         item, number, self.corner = self.only, self.corner, None
         if item is None or number is None or len(self.corners) <= LEAST[item.kind]:
             self.put(self.draft.without(self.selection))
+            self.select()
         else:
             self.put(self.draft.with_corner(item, number))
 

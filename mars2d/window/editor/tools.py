@@ -121,9 +121,9 @@ class Select(Tool):
         desk, draft = self.desk, self.desk.draft
         if desk.corner is not None:
             return _typed(desk.corners[desk.corner])
-        body, place = draft.body(desk.selection[0]), draft.place(desk.selection[0])
-        single = body is not None and desk.only is not None
-        return _typed((*place, degrees(body.pose[2]))) if single else _typed(place)
+        held = desk.selection[0]
+        body = draft.body(held) if held == desk.only else None
+        return _typed((*draft.place(held), *([] if body is None else [degrees(body.pose[2])])))
 
     def put(self, x: float, y: float, heading: float | None) -> None:
         """Put the selection at a point: its corner, a body's pose, or an outline's first corner."""
