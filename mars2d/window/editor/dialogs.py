@@ -84,17 +84,15 @@ class Dialogs(Prompts):
         """Save the draft, ask for a name first if there is none; then: called after saving."""
         scenario = self._valid("Not saved")
         if self.path is None:
-            answer = Answer("save", lambda text: self._save_new(scenario, _named(text), then))
+            answer = Answer("save", lambda text: self._save_to(_named(text), scenario, then))
             self.ask("Save as", answer, text=self.proposal, doc="a scenario file, in TOML")
-        elif self.new:
-            self._save_new(scenario, self.path, then)
         else:
-            self._write(scenario, self.path, then)
+            self._save_to(self.path, scenario, then)
 
-    def _save_new(self, scenario: Scenario, path: Path, then: Then) -> None:
-        """Save to a file of a name that has just been chosen."""
+    def _save_to(self, path: Path, scenario: Scenario, then: Then) -> None:
+        """Save to a file; ask first if it is another scenario's."""
         answer = Answer("overwrite it", lambda _: self._write(scenario, path, then))
-        if path.exists():
+        if self.new and path.exists():
             self.ask(f"{path} is there already.", answer)
         else:
             answer.act("")

@@ -25,7 +25,7 @@ from mars2d.window.editor.dialogs import Dialogs
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.grips import NOTCH, ring_of
 from mars2d.window.editor.item import Item, Motion
-from mars2d.window.editor.marks import draw_marks, draw_remarks, minus
+from mars2d.window.editor.marks import draw_marks, draw_remarks
 from mars2d.window.editor.properties import Properties
 from mars2d.window.editor.tools import Tool
 from mars2d.window.screen.looks import Looks
@@ -36,6 +36,7 @@ from mars2d.window.widgets.buttons import Buttons
 from mars2d.window.widgets.help import Help
 from mars2d.window.widgets.menu import Menu
 from mars2d.window.widgets.prompt import Answer
+from mars2d.window.widgets.rows import Word, minus, write_line
 from mars2d.window.widgets.slider import draw_tooltip
 
 NUDGES = {"←": (-1, 0), "→": (1, 0), "↑": (0, 1), "↓": (0, -1)}
@@ -52,8 +53,6 @@ PANEL, MAX_PANEL, ARENA = 268.0, 0.34, 0.405
 """The width of the panel, points, its largest share of the window's width, and the share of the
 window that it leaves to the drawing."""
 PANEL_HINT = "Arrows choose a row, Enter opens it, Esc leaves"
-STEP = 16.0
-"""The height of the line below them, with the step of the grid, points."""
 LAYERS = Layers(trails=False, sensors=False, messages=False)
 MAX_NAMED = 40
 """With more robots and props than this, names are hidden at first."""
@@ -384,25 +383,15 @@ class Editor:
             painter.panel(surface, place, fill, 7 * ui, theme.selected if hover else theme.key_edge)
             painter.write(surface, action.title, 15 * ui, color, bold=first, center=place.center)
             right = place.left - round(8 * ui)
-        room = right - 2 * pad - fonts.width(note, 14 * ui) - 12 * ui
-        title = fonts.shorten(self.title, 20 * ui, room, bold=True)
-        at = bar.left + pad, bar.centery
-        place = painter.write(surface, title, 20 * ui, theme.ink, bold=True, midleft=at)
-        if room > 0:
-            beside = (place.right + 12 * ui, bar.centery + 2 * ui)
-            painter.write(surface, note, 14 * ui, theme.muted, midleft=beside)
+        words = Word(self.title, theme.ink, 20, bold=True), Word(note, theme.muted, 14)
+        write_line(surface, pygame.Rect(pad, bar.top, right - pad, bar.height), painter, words)
 
     def _draw_tools(self, surface: pygame.Surface, side: pygame.Rect) -> None:
-        """Draw the buttons of the tools, and the step of the grid below them."""
+        """Draw the buttons of the tools."""
         painter, theme = self.painter, self.painter.theme
         surface.fill(theme.bar, side)
         surface.fill(theme.edge, (side.right - 1, side.top, 1, side.height))
-        bar = pygame.Rect(side.topleft, (side.width, side.height - round(STEP * painter.ui)))
-        self._toolbar.draw(surface, bar, painter, self._pointer)
-        place = self._toolbar.places["snap"]
-        step = f"{self.desk.step:g} m" if self.desk.snaps else "free"
-        below = (place.centerx, place.bottom + 2)
-        painter.write(surface, step, 0.3 * place.width, theme.text, midtop=below)
+        self._toolbar.draw(surface, side, painter, self._pointer)
 
     def _draw_plot(self, surface: pygame.Surface) -> None:
         scene = Scene()
@@ -434,10 +423,11 @@ class Editor:
             banner = Banner(verdict.text, error=True)
         elif verdict.text and self.tool_name == "select":
             text = verdict.text[:1].upper() + verdict.text[1:]
-        hints = [*[("Esc", "leaves")] * self.live, ("F1", "all keys")]
+        grid = ("G", f"grid {desk.step:g} m" if desk.snaps else "no grid")
+        hints = [grid, *[("Esc", "leaves")] * self.live, ("F1", "all keys")]
         if layout.plot.collidepoint(self._pointer):
             x, y = desk.snapped(self._world(self._pointer))
-            hints = [("", minus(f"x {x:g} m   y {y:g} m"))]
+            hints = [grid, ("", minus(f"x {x:g} m   y {y:g} m"))]
         if self.tool_name != "select" and not self.panel.focused:
             hints = [("=", "types a place"), *hints]
         size, looks = surface.get_size(), self.looks

@@ -34,15 +34,18 @@ MIN_SIDE = 0.01
 class Grip(NamedTuple):
     """Something to drag.
 
-    to: returns the draft with the pointer dragged to a point [m]. point: where its handle is,
-    metres. look: of the handle: "ring", "dot" or "square". corner: the index of the corner that it
-    moves, if it moves one.
+    to: returns the draft with the pointer dragged to a point [m]. point: where its handle is, or
+    where the drag begins, metres. look: "ring", "dot" or "square" of the handle, or "band" of the
+    rectangle that is drawn. corner: the index of the corner that it moves, if any. clicked: the
+    item that a mere click selects. at_once: whether a mere click has the effect, too.
     """
 
     to: Callable[[Point], Draft]
-    point: Point = (0.0, 0.0)
+    point: Point
     look: str = ""
     corner: int | None = None
+    clicked: Item | None = None
+    at_once: bool = False
 
 
 class Ring(NamedTuple):
@@ -102,7 +105,18 @@ def moving(desk: Desk, grabbed: Item, start: Point) -> Grip:
         goal = desk.snapped((x + point[0] - start[0], y + point[1] - start[1]))
         return draft.moved(items, Motion(by=(goal[0] - x, goal[1] - y)))
 
-    return Grip(to)
+    return Grip(to, start, clicked=None if desk.shift else grabbed)
+
+
+def banding(desk: Desk, start: Point, kept: tuple[Item, ...]) -> Grip:
+    """Select the items within a rectangle, with those that are kept."""
+    draft = desk.draft
+
+    def to(point: Point) -> Draft:
+        desk.select([*kept, *desk.items_within(start, point)])
+        return draft
+
+    return Grip(to, start, "band")
 
 
 def _turning(desk: Desk, ring: Ring) -> Grip:
@@ -127,7 +141,7 @@ def _cornering(desk: Desk, item: Item, number: int, at: Point, *, new: bool = Fa
     def to(point: Point) -> Draft:
         return draft.changed({item: (*before, desk.snapped(point), *after)})
 
-    return Grip(to, at, "dot" if new else "square", k)
+    return Grip(to, at, "dot" if new else "square", k, at_once=new)
 
 
 def _sides(desk: Desk, item: Item) -> list[Grip]:

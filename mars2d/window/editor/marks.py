@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from math import degrees, hypot
+from math import degrees, dist
 
 from mars2d.core.errors import counted
 from mars2d.core.plane import Point
@@ -12,6 +12,7 @@ from mars2d.output.raster.theme import LIGHT
 from mars2d.window.editor.draft import Draft
 from mars2d.window.editor.item import Item, angle_of
 from mars2d.window.panels.readout import in_both_units
+from mars2d.window.widgets.rows import minus
 
 MARK, PAPER = LIGHT.selected, LIGHT.paper
 IDLE, IDLE_SIZE = LIGHT.waiting.ink, 12.0
@@ -64,12 +65,10 @@ def draw_remarks(draft: Draft, idle: Mapping[int, str], scene: Scene) -> None:
 def described(draft: Draft, item: Item) -> list[str]:
     """Return lines about an item: name, position, heading, size."""
     (x, y), corners, body = draft.place(item), draft.corners(item), draft.body(item)
-    lines, sides = [draft.name(item), f"x {x:.4g} m   y {y:.4g} m"], None
-    if corners:
-        xmin, ymin, xmax, ymax = draft.shape(item).bounds
-        length = f"{draft.shape(item).length:.4g} m long"
-        sides, lines = (xmax - xmin, ymax - ymin), [lines[0], counted(len(corners), "corner")]
-        sides, lines = (None, [*lines, length]) if item.kind == "wall" else (sides, lines)
+    lines, shape = [draft.name(item)], draft.shape(item)
+    lines.append(counted(len(corners), "corner") if corners else f"x {x:.4g} m   y {y:.4g} m")
+    xmin, ymin, xmax, ymax = shape.bounds
+    sides = (xmax - xmin, ymax - ymin) if corners else None
     if body is not None:
         sides = getattr(draft.things[item], "side_lengths", None)
         lines.append(f"θ {in_both_units(body.pose[2])}")
@@ -77,18 +76,14 @@ def described(draft: Draft, item: Item) -> list[str]:
             lines[1:] = ["starts at random, until it is moved"]
         elif item.kind == "prop" and body.is_disc:
             lines.append(f"diameter {2 * body.bound[1]:.4g} m")
-    if sides is not None:
+    if draft.is_line(item):
+        lines.append(f"{shape.length:.4g} m long")
+    elif sides is not None:
         lines.append(f"{sides[0]:.4g} m x {sides[1]:.4g} m")
     return [minus(line) for line in lines]
 
 
 def stretch(a: Point, b: Point) -> str:
     """Return the length and direction of an edge."""
-    length = hypot(b[0] - a[0], b[1] - a[1])
-    turn = round(degrees(angle_of(a, b)), 1) + 0.0
+    length, turn = dist(a, b), round(degrees(angle_of(a, b)), 1) + 0.0
     return minus(f"{length:.4g} m   {turn:g}°") if length else ""
-
-
-def minus(text: str) -> str:
-    """Return a text with true minus signs in place of hyphens."""
-    return text.replace("-", "\N{MINUS SIGN}")

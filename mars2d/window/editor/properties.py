@@ -25,10 +25,11 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
 from mars2d.window.editor.draft import BODIES, Draft
 from mars2d.window.editor.item import Item
-from mars2d.window.editor.marks import described, minus
+from mars2d.window.editor.marks import described
 from mars2d.window.editor.tools import Tie
 from mars2d.window.widgets.menu import CHOSEN, Entry
 from mars2d.window.widgets.prompt import Answer
+from mars2d.window.widgets.rows import minus
 
 if TYPE_CHECKING:
     from mars2d.bodies.joints.base import Joint

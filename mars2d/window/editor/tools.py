@@ -19,7 +19,7 @@ from mars2d.geometry.shapes import Polygon
 from mars2d.scenario.robot import Robot
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.draft import Draft, seen_from
-from mars2d.window.editor.grips import NOTCH, Grip, grip_at, grips, moving, ring_of, sized
+from mars2d.window.editor.grips import NOTCH, Grip, banding, grip_at, grips, moving, ring_of, sized
 from mars2d.window.editor.item import Item, Kind, Motion, angle_of, tidy
 from mars2d.window.editor.marks import MARK, PAPER, described, draw_outline, stretch
 
@@ -55,6 +55,8 @@ class Tool:
     def begin(self, drag: Grip, point: Point) -> None:
         """Begin a drag."""
         self.drag, self._pressed, self.moved = drag, point, False
+        if drag.at_once:
+            self.desk.hold(drag.to, drag.point)
 
     def move(self, point: Point) -> None:
         """Move the mouse, with or without the button."""
@@ -66,10 +68,11 @@ class Tool:
 
     def release(self) -> None:
         """Release the button: keep the changes of the drag, and select what is new."""
-        drag, self.drag, self.moved = self.drag, None, False
+        clicked = None if self.drag is None or self.moved else self.drag.clicked
+        self.drag, self.moved = None, False
         self.desk.settle()
-        if drag is not None and drag.corner is not None and self.desk.only is not None:
-            self.desk.corner = drag.corner
+        if clicked is not None:
+            self.desk.select([clicked])
 
     @property
     def place(self) -> str:
@@ -111,10 +114,6 @@ class Tool:
 class Select(Tool):
     """Selects, moves, turns and resizes items."""
 
-    _band: tuple[Point, Point] | None = None
-    _kept: tuple[Item, ...] = ()
-    _clicked: Item | None = None
-
     @property
     def place(self) -> str:
         """The place of the selection: of its corner, or of a body with its heading in degrees."""
@@ -141,53 +140,27 @@ class Select(Tool):
 
     def press(self, point: Point) -> None:
         """Begin to drag a handle, an item, or a rectangle round items."""
-        desk, self._clicked = self.desk, None
+        desk = self.desk
         grip, item = grip_at(desk, point), desk.item_at(point)
         if grip is None and item is not None and item.kind == "route" and not desk.shift:
             desk.select([item])  # its waypoints are dragged at once
             grip = grip_at(desk, point)
         if grip is not None:
-            self.begin(grip, point)
-            if grip.look == "dot":
-                self.moved = True  # a mere click on a dot adds the corner, too
-                desk.hold(grip.to, grip.point)
             desk.corner = grip.corner
+            self.begin(grip, point)
             return
         if item is None:
-            self._kept = desk.selection if desk.shift else ()
-            desk.select(self._kept)
-            self._band = point, point
+            kept = desk.selection if desk.shift else ()
+            desk.select(kept)
+            self.begin(banding(desk, point, kept), point)
             return
         if desk.shift:
             others = tuple(other for other in desk.selection if other != item)
             desk.select(others if item in desk.selection else (*others, item))
         elif item not in desk.selection:
             desk.select([item])
-        else:
-            self._clicked = item
-            desk.corner = None
         if item in desk.selection:
             self.begin(moving(desk, item, point), point)
-
-    def move(self, point: Point) -> None:
-        """Drag the handle or item, or select the items within the rectangle."""
-        super().move(point)
-        if self._band is not None:
-            self._band = self._band[0], point
-            self.desk.select([*self._kept, *self.desk.items_within(*self._band)])
-
-    def release(self) -> None:
-        """End the drag; a click on one of several selected items selects it alone."""
-        alone = self._clicked if not self.moved and not self.desk.shift else None
-        super().release()
-        if alone is not None and len(self.desk.selection) > 1:
-            self.desk.select([alone])
-        self._band = self._clicked = None
-
-    def cancel(self) -> bool:
-        """Cancel the drag."""
-        band, self._band = self._band, None
-        return super().cancel() or band is not None
 
     def draw(self, scene: Scene) -> None:
         """Draw the ring, the handles and the rectangle."""
@@ -206,8 +179,8 @@ class Select(Tool):
                 half = desk.metres(6.5 if chosen else 5.0)
                 square = rectangle(x - half, x + half, y - half, y + half)
                 scene.polygon(square, fill=MARK if chosen else PAPER, stroke=MARK, width=2.0)
-        if self._band is not None:
-            area = rectangle(*bounds_of(self._band))
+        if self.drag is not None and self.drag.look == "band" and self.pointer is not None:
+            area = rectangle(*bounds_of([self.drag.point, self.pointer]))
             scene.polygon(area, fill=faded(MARK, 0.08), stroke=MARK, width=1.0)
 
 
@@ -240,8 +213,7 @@ class Place(Tool):
         def to(end: Point) -> Draft:
             return draft.added(self._make(desk, start, end if self.moved else start))
 
-        self.begin(Grip(to), point)
-        desk.hold(to, point)
+        self.begin(Grip(to, point, at_once=True), point)
 
     def put(self, x: float, y: float, heading: float | None) -> None:
         """Place an item at a typed point."""
