@@ -16,7 +16,7 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.window import home
 from mars2d.window.compare_window import CompareWindow
 from mars2d.window.editor import Editor
-from mars2d.window.editor.item import Item
+from mars2d.window.editor.draft import Item
 from mars2d.window.run.window import Window
 from mars2d.window.screen.display import Preferences
 from mars2d.window.screen.looks import Looks

@@ -10,8 +10,7 @@ import shapely
 
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Outline, Point, grid_step
-from mars2d.window.editor.draft import LEAST, Draft
-from mars2d.window.editor.item import Item, Motion, tidy
+from mars2d.window.editor.draft import LEAST, Draft, Item, Motion, tidy
 from mars2d.window.screen.viewpoint import Viewpoint
 
 MIN_GRID_STEP = 9.0

@@ -8,7 +8,8 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import count, islice, pairwise
-from typing import Any, NamedTuple, Self, cast
+from math import atan2, cos, sin
+from typing import Any, Literal, NamedTuple, Self, cast
 
 import numpy as np
 import shapely
@@ -22,15 +23,17 @@ from mars2d.bodies.props.base import Prop
 from mars2d.bodies.rigid import Rigid
 from mars2d.core import checks
 from mars2d.core.description import snake_case
-from mars2d.core.errors import InputError, Mars2dError
+from mars2d.core.errors import InputError, Mars2dError, counted
 from mars2d.core.plane import Outline, Point
 from mars2d.record.frame import Frame
 from mars2d.scenario import starts
 from mars2d.scenario.random_starts import RandomStarts
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.editor.item import Item, Kind, Motion
+from mars2d.window.panels.readout import in_both_units
+from mars2d.window.widgets.rows import minus
 
+Kind = Literal["robot", "prop", "outline", "wall", "route", "beacon", "workspace", "joint"]
 LEAST: Mapping[Kind, int] = {"workspace": 3, "outline": 2, "wall": 2, "route": 1}
 """The kinds of items that are corners, and how many these are at least."""
 BODIES: tuple[Kind, ...] = ("robot", "prop")
@@ -39,6 +42,40 @@ MAX_FAULTS = 50
 
 BLANK: Outline = Scenario.__dataclass_fields__["workspace"].default
 """The area shown of an empty draft, metres."""
+
+
+class Item(NamedTuple):
+    """An item of a draft.
+
+    number: its index among the items of its kind; of a route, that of its robot.
+    """
+
+    kind: Kind
+    number: int = 0
+
+
+class Motion(NamedTuple):
+    """A turn by `angle` [rad] about the point `about`, then a shift by `by` [m]."""
+
+    angle: float = 0.0
+    about: Point = (0.0, 0.0)
+    by: Point = (0.0, 0.0)
+
+    def point(self, point: Point) -> Point:
+        """Return a point after the motion."""
+        if not self.angle:
+            return tidy(point[0] + self.by[0]), tidy(point[1] + self.by[1])
+        (x, y), c, s = self.about, cos(self.angle), sin(self.angle)
+        dx, dy = point[0] - x, point[1] - y
+        return tidy(x + c * dx - s * dy + self.by[0]), tidy(y + s * dx + c * dy + self.by[1])
+
+    def pose(self, pose: tuple[float, float, float]) -> tuple[float, float, float]:
+        """Return a pose after the motion, its heading in (-pi, pi] if it turns."""
+        heading = pose[2]
+        if self.angle:
+            turned = heading + self.angle
+            heading = tidy(atan2(sin(turned), cos(turned)))
+        return (*self.point(pose[:2]), heading)
 
 
 class Verdict(NamedTuple):
@@ -173,6 +210,26 @@ class Draft:
         if len(points) < 2:
             return shapely.Point(self.place(item))
         return (shapely.LineString if self.is_line(item) else shapely.Polygon)(points)
+
+    def described(self, item: Item) -> list[str]:
+        """Return lines about an item: name, position, heading, size."""
+        (x, y), corners, body = self.place(item), self.corners(item), self.body(item)
+        lines, shape = [self.name(item)], self.shape(item)
+        lines.append(counted(len(corners), "corner") if corners else f"x {x:.4g} m   y {y:.4g} m")
+        xmin, ymin, xmax, ymax = shape.bounds
+        sides = (xmax - xmin, ymax - ymin) if corners else None
+        if body is not None:
+            sides = getattr(self.things[item], "side_lengths", None)
+            lines.append(f"θ {in_both_units(body.pose[2])}")
+            if self.starts_at_random(item):
+                lines[1:] = ["starts at random, until it is moved"]
+            elif item.kind == "prop" and body.is_disc:
+                lines.append(f"diameter {2 * body.bound[1]:.4g} m")
+        if self.is_line(item):
+            lines.append(f"{shape.length:.4g} m long")
+        elif sides is not None:
+            lines.append(f"{sides[0]:.4g} m x {sides[1]:.4g} m")
+        return [minus(line) for line in lines]
 
     def starts_at_random(self, item: Item) -> bool:
         """Return whether a robot or prop starts elsewhere in each run."""
@@ -363,6 +420,16 @@ class Draft:
                 ends = {"a": names[joint.a], "b": names[joint.b], "anchor_b": at}
                 joints[Item("joint", k)] = joint.replace(**ends)
         return draft.added(joints)
+
+
+def tidy(value: float) -> float:
+    """Return a length or angle rounded to nine decimals, without errors of rounding."""
+    return round(value, 9) + 0.0
+
+
+def angle_of(center: Point, point: Point) -> float:
+    """Return the direction from one point to another, radians."""
+    return atan2(point[1] - center[1], point[0] - center[0])
 
 
 def seen_from(body: Rigid | None, point: Point) -> Point:

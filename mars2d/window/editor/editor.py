@@ -12,22 +12,21 @@ import pygame
 
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.plane import Point, rectangle
-from mars2d.core.scene import Scene
+from mars2d.core.scene import Scene, faded
 from mars2d.output.layers.table import Layers
 from mars2d.output.raster.bars import Banner, draw_footer, footer_height
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.stage import Stage
+from mars2d.output.raster.theme import LIGHT
 from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor.actions import TOOLS, actions_of
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.dialogs import Dialogs
-from mars2d.window.editor.draft import Draft
+from mars2d.window.editor.draft import Draft, Item, Motion
 from mars2d.window.editor.grips import NOTCH, ring_of
-from mars2d.window.editor.item import Item, Motion
-from mars2d.window.editor.marks import draw_marks, draw_remarks
 from mars2d.window.editor.properties import Properties
-from mars2d.window.editor.tools import Tool
+from mars2d.window.editor.tools import MARK, PAPER, Tool, draw_outline
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.viewpoint import Viewpoint, wheel_notches
 from mars2d.window.show import show_experiment
@@ -53,6 +52,7 @@ PANEL, MAX_PANEL, ARENA = 268.0, 0.34, 0.405
 """The width of the panel, points, its largest share of the window's width, and the share of the
 window that it leaves to the drawing."""
 PANEL_HINT = "Arrows choose a row, Enter opens it, Esc leaves"
+IDLE, IDLE_SIZE, RED = LIGHT.waiting.ink, 12.0, LIGHT.error.ink
 LAYERS = Layers(trails=False, sensors=False, messages=False)
 MAX_NAMED = 40
 """With more robots and props than this, names are hidden at first."""
@@ -394,14 +394,17 @@ class Editor:
         self._toolbar.draw(surface, side, painter, self._pointer)
 
     def _draw_plot(self, surface: pygame.Surface) -> None:
-        scene = Scene()
-        draft = self.desk.draft
-        draw_marks(draft, self.desk.selection, self.desk.settled.verdict.culprits, scene)
+        scene, draft = Scene(), self.desk.draft
+        for item in self.desk.selection:
+            draw_outline(draft, item, scene, PAPER, 4.5)
+            draw_outline(draft, item, scene, MARK, 2.2)
+        for item in self.desk.settled.verdict.culprits & draft.things.keys():
+            draw_outline(draft, item, scene, RED, 3.0, faded(RED, 0.3))
         self.tool.draw(scene)
         plot, camera = self.layout.plot, self.viewpoint.camera
         frame = draft.frame(plain=self._plain)
         if self.names:
-            draw_remarks(draft, self.properties.idle(draft), scene)
+            self._draw_remarks(draft, scene)
         layers, hurried = LAYERS.switched(names=self.names), self.viewpoint.hurried
         try:
             self._stage.draw(
@@ -413,6 +416,18 @@ class Editor:
             self._plain = True
             self.desk.say(f"Other add-ons are not drawn: {error}", warns=True)
             self._draw_plot(surface)
+
+    def _draw_remarks(self, draft: Draft, scene: Scene) -> None:
+        """Write below each robot what it lacks to be moved, and whether it starts at random."""
+        idle = self.properties.idle(draft)
+        for i, robot in enumerate(draft.base.robots):
+            words = ["at random"] if draft.starts_at_random(Item("robot", i)) else []
+            if i in idle:
+                words.append("no law" if idle[i] == "a law" else f"lacks {idle[i]}")
+            (x, y), radius = robot.rigid.bound
+            text, below = ", ".join(words), (x, y - radius)
+            if text:
+                scene.text(below, text, color=IDLE, size=IDLE_SIZE, anchor="below", halo=PAPER)
 
     def _draw_foot(self, surface: pygame.Surface) -> None:
         """Draw what to do, or over the foot of the drawing a message of any length."""

@@ -15,8 +15,7 @@ from mars2d.bodies.props.base import Prop
 from mars2d.bodies.props.rectangles import Box
 from mars2d.core.plane import Point, edges_of
 from mars2d.window.editor.desk import Desk
-from mars2d.window.editor.draft import Draft
-from mars2d.window.editor.item import Item, Motion, angle_of, tidy
+from mars2d.window.editor.draft import Draft, Item, Motion, angle_of, tidy
 
 REACH = 9.0
 """The radius in which a handle is hit, points."""
@@ -37,7 +36,8 @@ class Grip(NamedTuple):
     to: returns the draft with the pointer dragged to a point [m]. point: where its handle is, or
     where the drag begins, metres. look: "ring", "dot" or "square" of the handle, or "band" of the
     rectangle that is drawn. corner: the index of the corner that it moves, if any. clicked: the
-    item that a mere click selects. at_once: whether a mere click has the effect, too.
+    item that a mere click selects. at_once: whether a mere click has the effect, too. center: of
+    the ring, metres.
     """
 
     to: Callable[[Point], Draft]
@@ -46,38 +46,13 @@ class Grip(NamedTuple):
     corner: int | None = None
     clicked: Item | None = None
     at_once: bool = False
-
-
-class Ring(NamedTuple):
-    """The ring round the selection, metres; heading: the direction of its handle, radians."""
-
-    center: Point
-    radius: float
-    heading: float
-
-
-def ring_of(desk: Desk) -> Ring | None:
-    """Return the ring, None if the selection can't be turned."""
-    draft = desk.draft
-    items = [item for item in desk.selection if item.kind != "workspace"]
-    points = [p for item in items for p in draft.corners(item) or [draft.place(item)]]
-    body = None if desk.only is None else draft.body(desk.only)
-    low, high, above = (desk.metres(points) for points in (MIN_RING, MAX_RING, 16.0))
-    if body is not None:
-        return Ring(body.pose[:2], min(max(body.bound[1] + above, low), high), body.pose[2])
-    if len(points) < 2:
-        return None
-    xmin, ymin, xmax, ymax = shapely.total_bounds([draft.shape(item) for item in items])
-    x, y = np.mean(points, axis=0).tolist()  # stays where it is while they turn about it
-    radius = hypot(xmax - xmin, ymax - ymin) / 2
-    return Ring((tidy(x), tidy(y)), min(max(radius + above, low), high), pi / 2)
+    center: Point = (0.0, 0.0)
 
 
 def grips(desk: Desk) -> list[Grip]:
     """Return what has a handle, the uppermost last."""
-    ring, item, found = ring_of(desk), desk.only, list[Grip]()
-    if ring is not None:
-        found.append(_turning(desk, ring))
+    ring, item = ring_of(desk), desk.only
+    found = [] if ring is None else [ring]
     if item is None:
         return found
     corners, line = desk.draft.corners(item), desk.draft.is_line(item)
@@ -119,18 +94,29 @@ def banding(desk: Desk, start: Point, kept: tuple[Item, ...]) -> Grip:
     return Grip(to, start, "band")
 
 
-def _turning(desk: Desk, ring: Ring) -> Grip:
-    """Turn the selection about the middle of its ring, with Shift in notches."""
-    draft, items, (x, y) = desk.draft, desk.selection, ring.center
+def ring_of(desk: Desk) -> Grip | None:
+    """Turn the selection about the middle of its ring, with Shift in notches; None if it can't."""
+    draft, only, selection = desk.draft, desk.only, desk.selection
+    items = [item for item in selection if item.kind != "workspace"]
+    points = [p for item in items for p in draft.corners(item) or [draft.place(item)]]
+    body = None if only is None else draft.body(only)
+    if body is None and len(points) < 2:
+        return None
+    heading = pi / 2 if body is None else body.pose[2]
+    xmin, ymin, xmax, ymax = shapely.total_bounds([draft.shape(item) for item in items])
+    x, y = map(tidy, np.mean(points, axis=0).tolist())  # stays while they turn about it
+    reach = hypot(xmax - xmin, ymax - ymin) / 2 if body is None else body.bound[1]
+    low, high, above = (desk.metres(points) for points in (MIN_RING, MAX_RING, 16.0))
+    radius = min(max(reach + above, low), high)
 
     def to(point: Point) -> Draft:
         step = NOTCH if desk.shift else 1.0 if desk.snaps else 0.1
-        wanted = degrees(angle_of(ring.center, point))
-        angle = radians(round(wanted / step) * step) - ring.heading
-        return draft.moved(items, Motion(angle, ring.center)) if abs(angle) > 1e-12 else draft
+        wanted = degrees(angle_of((x, y), point))
+        angle = radians(round(wanted / step) * step) - heading
+        return draft.moved(selection, Motion(angle, (x, y))) if abs(angle) > 1e-12 else draft
 
-    handle = x + ring.radius * cos(ring.heading), y + ring.radius * sin(ring.heading)
-    return Grip(to, handle, "ring")
+    handle = x + radius * cos(heading), y + radius * sin(heading)
+    return Grip(to, handle, "ring", center=(x, y))
 
 
 def _cornering(desk: Desk, item: Item, number: int, at: Point, *, new: bool = False) -> Grip:

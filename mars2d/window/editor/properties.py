@@ -23,9 +23,7 @@ from mars2d.scenario.registry import members
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
-from mars2d.window.editor.draft import BODIES, Draft
-from mars2d.window.editor.item import Item
-from mars2d.window.editor.marks import described
+from mars2d.window.editor.draft import BODIES, Draft, Item
 from mars2d.window.editor.tools import Tie
 from mars2d.window.widgets.menu import CHOSEN, Entry
 from mars2d.window.widgets.prompt import Answer
@@ -42,13 +40,8 @@ SEVERAL = "several"
 """Shown where the selected bodies have different values."""
 ELSEWHERE = ("pose", "shape", "controller", "a", "b", "workspace")
 """The fields that are changed in other ways."""
-COLORS = dict(
-    zip(
-        PALETTE,
-        ("blue", "vermilion", "green", "pink", "orange", "sky blue", "violet", "dark grey"),
-        strict=True,
-    )
-)
+NAMES = ("blue", "vermilion", "green", "pink", "orange", "sky blue", "violet", "dark grey")
+COLORS = dict(zip(PALETTE, NAMES, strict=True))
 """The colours of the palette, in words."""
 AUTOMATIC, UNSET = "automatic", "not set"
 """What a value is called that follows from others, and one that nobody has given."""
@@ -163,7 +156,7 @@ class Properties:
             ]  # fmt: skip
         rows = [Entry(counted(len(items), "thing"))]
         if len(items) == 1:  # without the size of a body, which has rows of its own
-            first, *others = described(draft, items[0])[:3]
+            first, *others = draft.described(items[0])[:3]
             rows = [Entry(first), *(Entry(line, tone="note") for line in others)]
         rows += [
             Entry(f"Corner {k}", partial(self._touch, k), value=minus(f"{x:.4g}, {y:.4g} m"))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from contextlib import suppress
-from math import degrees, radians
+from math import degrees, dist, radians
 from typing import Any
 
 from mars2d.addons.beacon import Beacon
@@ -16,20 +16,37 @@ from mars2d.core.errors import InputError
 from mars2d.core.plane import Outline, Point, bounds_of, rectangle
 from mars2d.core.scene import INK, Scene, faded
 from mars2d.geometry.shapes import Polygon
+from mars2d.output.raster.theme import LIGHT
 from mars2d.scenario.robot import Robot
 from mars2d.window.editor.desk import Desk
-from mars2d.window.editor.draft import Draft, seen_from
+from mars2d.window.editor.draft import Draft, Item, Kind, Motion, angle_of, seen_from, tidy
 from mars2d.window.editor.grips import NOTCH, Grip, banding, grip_at, grips, moving, ring_of, sized
-from mars2d.window.editor.item import Item, Kind, Motion, angle_of, tidy
-from mars2d.window.editor.marks import MARK, PAPER, described, draw_outline, stretch
+from mars2d.window.widgets.rows import minus
 
 CLICK = 5.0
 """A press that moves by less than this is a click, points."""
 CLOSE = 10.0
 """A click this near to the first corner closes a polygon, points."""
+MARK, PAPER = LIGHT.selected, LIGHT.paper
 GHOST = faded(MARK, 0.7)
 SQUARE = 1.0
 """The side of an obstacle that is placed by a click, metres."""
+
+
+def draw_outline(
+    draft: Draft, item: Item, scene: Scene, stroke: str, width: float, fill: str | None = None
+) -> None:
+    """Draw the outlines of an item."""
+    for points, radius in draft.rims(item):
+        if len(points) == 1:
+            pixels = 0.0 if radius else 9.0
+            look = {"fill": fill} if radius else {}
+            scene.circle(points[0], radius, stroke=stroke, width=width, pixels=pixels, **look)
+        elif draft.is_line(item):
+            scene.line(points, stroke=stroke, width=width)
+        else:
+            inside = None if item.kind == "workspace" else fill
+            scene.polygon(points, stroke=stroke, fill=inside, width=width)
 
 
 class Tool:
@@ -106,8 +123,8 @@ class Tool:
         changed = now.new_since(before) if self.drag is not None and self.moved else []
         if len(changed) != 1:
             return ""
-        known = described(before, changed[0]) if changed[0] in before.things else []
-        words = (line for line in reversed(described(now, changed[0])) if line not in known)
+        known = before.described(changed[0]) if changed[0] in before.things else []
+        words = (line for line in reversed(now.described(changed[0])) if line not in known)
         return next(words, "")
 
 
@@ -166,8 +183,9 @@ class Select(Tool):
         """Draw the ring, the handles and the rectangle."""
         desk, ring = self.desk, ring_of(self.desk)
         if ring is not None:
-            scene.circle(ring.center, ring.radius, stroke=PAPER, width=3.5)
-            scene.circle(ring.center, ring.radius, stroke=MARK, width=1.5)
+            radius = dist(ring.center, ring.point)
+            scene.circle(ring.center, radius, stroke=PAPER, width=3.5)
+            scene.circle(ring.center, radius, stroke=MARK, width=1.5)
         for grip in grips(desk):
             x, y = grip.point
             if grip.look == "ring":
@@ -360,7 +378,11 @@ class Chain(Tool):
     @property
     def remark(self) -> str:
         """The length and direction of the next edge."""
-        return stretch(*self.line[-2:]) if self.corners and self.pointer is not None else ""
+        if not self.corners or self.pointer is None:
+            return ""
+        a, b = self.line[-2:]
+        turn = round(degrees(angle_of(a, b)), 1) + 0.0
+        return minus(f"{dist(a, b):.4g} m   {turn:g}°") if a != b else ""
 
     def draw(self, scene: Scene) -> None:
         """Draw the corners so far, the edge to the pointer, and the area."""
