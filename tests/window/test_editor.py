@@ -3,13 +3,15 @@
 from math import degrees, pi
 
 import numpy as np
+import pygame
 import pytest
 
 from mars2d.addons import Map
 from mars2d.bodies.props import Box
 from mars2d.cli.command_line import main
 from mars2d.scenario import load_scenario
-from mars2d.window.editor import editor
+from mars2d.window.run.player_window import PlayerWindow
+from mars2d.window.screen import display
 from tests.cases import each_case
 from tests.window.drawing import near, team
 from tests.window.person import compare, differing
@@ -114,6 +116,13 @@ def test_rectangles_beacons_and_the_waypoints_of_the_robot_that_was_clicked(open
     hands.until(lambda s: s["selection"] == [["robot", 0]])
     hands.click(-3, 2)
     hands.until(lambda s: s["routes"] == [[[-3, 2]], [[3, 2], [2, 3]]])
+    hands.press("Escape")
+    hands.drag((3, 2), (3, 1), (4, 1))  # a waypoint, and not its route
+    hands.until(lambda s: s["routes"][1] == [[4, 1], [2, 3]] and s["corner"] == 0)
+    hands.click(3, 2)  # the dot half-way
+    hands.until(lambda s: s["routes"][1] == [[4, 1], [3, 2], [2, 3]] and s["corner"] == 1)
+    hands.press("Delete", "Delete")  # the waypoint, then the route
+    hands.until(lambda s: s["routes"] == [[[-3, 2]]])
 
 
 def test_the_workspace_has_corners_to_drag_to_add_and_to_remove(open_editor):
@@ -242,6 +251,7 @@ def test_numbers_put_the_selection_exactly(open_editor):
     hands.until(lambda s: "select something" in s["notice"])
     hands.click(0, 0)
     hands.press("equal")
+    hands.until(lambda s: s["typed"] == "0 0 0")
     hands.type("1.5 north")
     hands.press("Return")
     hands.until(lambda s: s["error"] and "expected x y" in s["error"])
@@ -251,8 +261,11 @@ def test_numbers_put_the_selection_exactly(open_editor):
     hands.type("1.5 2 90")
     hands.press("Return")
     hands.until(lambda s: s["prompt"] is None and near(s["robots"][0], (1.5, 2, pi / 2), 1e-9))
-    hands.press("equal", "Escape")
-    hands.until(lambda s: s["prompt"] is None)
+    hands.press("g", "Left", "equal", "Return")  # what is not changed stays to the last digit
+    hands.press("equal")
+    hands.until(lambda s: s["typed"] == "1.3 2 90")
+    hands.press("Escape")
+    assert near(hands.until(lambda s: s["prompt"] is None)["robots"][0], (1.3, 2, pi / 2), 1e-9)
 
 
 def test_duplicate_undo_and_redo(open_editor):
@@ -334,6 +347,12 @@ def test_leaving_asks_when_something_would_be_lost(open_editor, tmp_path):
     hands.press("ctrl+q", "BackSpace")
     hands.until(lambda s: s.get("left"))
     hands = open_editor(tmp_path / "given.toml")
+    hands.drag((0, 0), (1, 0), (2, 0))
+    hands.ask_to_close()
+    hands.until(lambda s: s["prompt"] == "Not saved yet.")
+    hands.ask_to_close()  # not asked a second time
+    hands.until(lambda s: s.get("left"))
+    hands = open_editor(tmp_path / "given.toml")
     hands.press("ctrl+q")
     hands.until(lambda s: s.get("left"))
     hands = open_editor(tmp_path / "given.toml")
@@ -344,17 +363,30 @@ def test_leaving_asks_when_something_would_be_lost(open_editor, tmp_path):
     assert load_scenario(tmp_path / "given.toml").robots[0].pose == (2, 0, 0)
 
 
-def test_f5_runs_the_file_and_comes_back(open_editor, monkeypatch):
-    ran = []
-    monkeypatch.setattr(
-        editor, "show_experiment", lambda experiment, *_, **__: ran.append(experiment)
-    )
+def test_f5_runs_the_file_in_this_window_and_comes_back(open_editor, monkeypatch):
+    ran, run = [], lambda window, screen: ran.append((window, screen.get_size()))
+    monkeypatch.setattr(display, "NOT_REAL", ())
+    monkeypatch.setattr(PlayerWindow, "_loop", run)
     hands = open_editor(team((0, 0), stop_time=0.5))
+    hands.resize(660, 520)
     hands.drag((0, 0), (1, 0), (2, 0))
     hands.press("F5")
-    assert [each.scenario.robots[0].pose for each in ran] == [(2, 0, 0)]
+    ((window, size),) = ran
+    assert (window.player.frame.scenario.robots[0].pose, size) == ((2, 0, 0), (660, 520))
+    assert pygame.display.get_surface().get_size() == (660, 520)
     hands.press("Delete")
     hands.until(lambda s: s["robots"] == [])
+
+
+def test_what_can_not_be_asked_for_is_kept_in_a_new_file(open_editor, tmp_path):
+    hands = open_editor(team((-3, 0), (0, 0)))
+    assert hands.shown.dialogs.rescue() is None
+    hands.drag((-3, 0), (-3, 1), (-3, 2))
+    hands.drag((-3, 2), (-2, 1), (0, 0))  # on top of each other: that can't be saved
+    hands.until(lambda s: s["fault"])
+    kept = load_scenario(hands.shown.dialogs.rescue())
+    assert kept.robots[0].pose == (-3, 2, 0)
+    assert load_scenario(tmp_path / "given.toml").robots[0].pose == (-3, 0, 0)
 
 
 # -- look -----------------------------------------------------------------------------------------

@@ -194,6 +194,7 @@ def test_what_nobody_gave_reads_as_what_it_is_and_can_be_taken_back(open_editor)
     hands = chosen(open_editor, Scenario(robots=[Robot(pose=(3, 3, 0))], props=[box]))
     assert ["Mass", "automatic (0.24 kg)"] in hands.state["rows"]
     assert ["Moment", "automatic (0.0016 kg m^2)"] in hands.state["rows"]
+    assert ["Static ground friction", "not set"] in hands.state["rows"]
     rows = hands.shown.properties.rows()
     assert all(len(row.title) + len(row.value) <= 25 for row in rows)
     hands.row("Mass")
@@ -236,8 +237,8 @@ def test_without_a_mouse_everything_is_placed_selected_and_changed(open_editor):
     assert hands.state["robots"][0][0] == 1
     hands.press("Escape", "Right")
     hands.until(lambda s: s["robots"][0][0] > 1)
-    hands.press("Tab")
-    hands.until(lambda s: s["selection"] == [["prop", 0]])
+    hands.press("Tab", "F2")
+    hands.until(lambda s: s["selection"] == [["prop", 0]] and s["chosen"] == "Joints")  # the first
 
 
 def typed(hands, *places):

@@ -146,5 +146,5 @@ def test_all_has_room_at_every_size_of_the_window_and_of_the_text(size, monkeypa
         sides.append(editor._toolbar.places["robot"].width)
         rows.append(editor.panel.places["Title"].height)
     assert faults == []
-    assert min(sides) >= 0.87 * sides[0], "larger text takes little room from the buttons"
+    assert min(sides) >= 0.85 * sides[0], "larger text takes little room from the buttons"
     assert size != (1280, 720) or rows[-1] >= 2 * rows[0], "the panel is read from the back row"

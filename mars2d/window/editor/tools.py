@@ -139,7 +139,9 @@ class Select(Tool):
             return _typed(desk.corners[desk.corner])
         held = desk.selection[0]
         body = draft.body(held) if held == desk.only else None
-        return _typed((*draft.place(held), *([] if body is None else [degrees(body.pose[2])])))
+        return _typed(
+            (*draft.place(held), *([] if body is None else [round(degrees(body.pose[2]), 6)]))
+        )
 
     def put(self, x: float, y: float, heading: float | None) -> None:
         """Put the selection at a point: its corner, a body's pose, or an outline's first corner."""
