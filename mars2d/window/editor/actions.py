@@ -67,9 +67,6 @@ def actions_of(editor: Editor) -> dict[str, tuple[Action, ...]]:
     def chosen(name: str) -> bool:
         return name == editor.tool_name
 
-    def switch(whole: object, name: str) -> None:
-        setattr(whole, name, not getattr(whole, name))
-
     here = (
         key("now", "Enter", "go on from now with the drawing", partial(dialogs.apply, "now"),
             title="Go on", on=lambda: True),
@@ -106,15 +103,15 @@ def actions_of(editor: Editor) -> dict[str, tuple[Action, ...]]:
                 partial(editor.select_next, too=True)),
             key("properties", "F2", "choose a property to change",
                 editor.properties.focus),
-            key("undo", "Ctrl Z", "undo", editor.undo,
+            key("undo", "Ctrl Z", "undo", lambda: editor.tool.back() or desk.go(-1),
                 title="Undo", when=lambda: desk.has(-1), repeats=True),
             key("redo", "Ctrl Y", "redo", partial(desk.go, 1), "Ctrl Shift Z",
                 title="Redo", when=lambda: desk.has(1), repeats=True),
         ),
         "Look": (
-            key("snap", "G", "snap to the grid on and off", partial(switch, desk, "snaps"),
+            key("snap", "G", "snap to the grid on and off", desk.snap_or_not,
                 title="Snap", icon=SNAP, on=lambda: desk.snaps),
-            key("names", "I", "names on and off", partial(switch, editor, "names")),
+            key("names", "I", "names on and off", editor.switch_names),
             key("fit", "F", "fit the workspace into the window", lambda: fit(desk.draft.sketch)),
             key("nearer", "Ctrl +", "zoom in", partial(zoom, 2.0), "Ctrl =", "Ctrl [+]"),
             key("farther", "Ctrl \N{MINUS SIGN}", "zoom out", partial(zoom, -2.0), "Ctrl [-]"),

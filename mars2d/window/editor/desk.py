@@ -209,6 +209,11 @@ class Desk:
         x, y = (tidy(round(value / step) * step) for value in point)
         return x, y
 
+    def snap_or_not(self) -> None:
+        """Let points snap to the grid from now on, or no longer."""
+        self.snaps = not self.snaps
+        self.say(f"points snap to a grid of {self.step:g} m" if self.snaps else "points are free")
+
     def near(self, a: Point, b: Point, points: float) -> bool:
         """Return whether two points are at most this near on the screen."""
         return hypot(a[0] - b[0], a[1] - b[1]) <= self.metres(points)

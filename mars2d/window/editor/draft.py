@@ -215,7 +215,7 @@ class Draft:
         """Return lines about an item: name, position, heading, size."""
         (x, y), corners, body = self.place(item), self.corners(item), self.body(item)
         lines, shape = [self.name(item)], self.shape(item)
-        lines.append(counted(len(corners), "corner") if corners else f"x {x:.4g} m   y {y:.4g} m")
+        lines.append(counted(len(corners), "corner") if corners else f"at {x:.4g}, {y:.4g} m")
         xmin, ymin, xmax, ymax = shape.bounds
         sides = (xmax - xmin, ymax - ymin) if corners else None
         if body is not None:

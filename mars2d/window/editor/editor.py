@@ -285,11 +285,6 @@ class Editor:
         motion = Motion(radians(way * (1.0 if desk.shift else NOTCH)), ring.center)
         desk.put(desk.draft.moved(desk.selection, motion), tag="turn")
 
-    def undo(self) -> None:
-        """Remove the last corner of the outline being drawn, or else undo the last change."""
-        if not self.tool.back():
-            self.desk.go(-1)
-
     def run(self) -> None:
         """Save the file, and run it in a window in the place of this one until that is closed."""
         path = self.dialogs.path
@@ -305,6 +300,10 @@ class Editor:
             self._held.clear()
 
     # -- the view -------------------------------------------------------------------------------
+
+    def switch_names(self) -> None:
+        """Show names, or hide them."""
+        self.names = not self.names
 
     def zoom(self, notches: float) -> None:
         """Zoom about the pointer, or else about the middle, by notches of the wheel."""
@@ -345,8 +344,10 @@ class Editor:
         self._arrange(surface.get_size())
         self._draw_plot(surface)
         plot, bar = self.layout.plot, self.layout.header
-        side = pygame.Rect(0, bar.bottom, plot.left, plot.height)
-        self._draw_tools(surface, side)
+        left = pygame.Rect(0, bar.bottom, plot.left, plot.height)
+        surface.fill(self.painter.theme.bar, left)
+        surface.fill(self.painter.theme.edge, (left.right - 1, left.top, 1, left.height))
+        self._toolbar.draw(surface, left, self.painter, self._pointer)
         right = pygame.Rect(plot.right, plot.top, surface.get_width() - plot.right, plot.height)
         self.panel.draw(surface, right, self.painter)
         self._draw_header(surface)
@@ -385,13 +386,6 @@ class Editor:
             right = place.left - round(8 * ui)
         words = Word(self.title, theme.ink, 20, bold=True), Word(note, theme.muted, 14)
         write_line(surface, pygame.Rect(pad, bar.top, right - pad, bar.height), painter, words)
-
-    def _draw_tools(self, surface: pygame.Surface, side: pygame.Rect) -> None:
-        """Draw the buttons of the tools."""
-        painter, theme = self.painter, self.painter.theme
-        surface.fill(theme.bar, side)
-        surface.fill(theme.edge, (side.right - 1, side.top, 1, side.height))
-        self._toolbar.draw(surface, side, painter, self._pointer)
 
     def _draw_plot(self, surface: pygame.Surface) -> None:
         scene, draft = Scene(), self.desk.draft
@@ -438,11 +432,10 @@ class Editor:
             banner = Banner(verdict.text, error=True)
         elif verdict.text and self.tool_name == "select":
             text = verdict.text[:1].upper() + verdict.text[1:]
-        grid = ("G", f"grid {desk.step:g} m" if desk.snaps else "no grid")
-        hints = [grid, *[("Esc", "leaves")] * self.live, ("F1", "all keys")]
+        hints = [*[("Esc", "leaves")] * self.live, ("F1", "all keys")]
         if layout.plot.collidepoint(self._pointer):
             x, y = desk.snapped(self._world(self._pointer))
-            hints = [grid, ("", minus(f"x {x:g} m   y {y:g} m"))]
+            hints = [("", minus(f"x {x:g} m   y {y:g} m"))]
         if self.tool_name != "select" and not self.panel.focused:
             hints = [("=", "types a place"), *hints]
         size, looks = surface.get_size(), self.looks
