@@ -103,7 +103,7 @@ def actions_of(editor: Editor) -> dict[str, tuple[Action, ...]]:
                 partial(editor.select_next, too=True)),
             key("properties", "F2", "choose a property to change",
                 editor.properties.focus),
-            key("undo", "Ctrl Z", "undo", lambda: editor.tool.back() or desk.go(-1),
+            key("undo", "Ctrl Z", "undo", editor.undo,
                 title="Undo", when=lambda: desk.has(-1), repeats=True),
             key("redo", "Ctrl Y", "redo", partial(desk.go, 1), "Ctrl Shift Z",
                 title="Redo", when=lambda: desk.has(1), repeats=True),

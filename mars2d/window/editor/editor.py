@@ -89,15 +89,11 @@ class Editor:
         if changed:
             self.desk.saved = None
         self.menu, self.panel = Menu(), Menu(docked=True)
-        self.dialogs = Dialogs(
-            self.desk, self.menu, lambda: self.tool.confirm(),  # noqa: PLW0108
-            path, control, scenario if live else None,
-        )  # fmt: skip
+        self.dialogs = Dialogs(self, path, control)
         self.properties = Properties(self)
         self._stage = Stage(painter)
         self._pointer = (-1, -1)
-        self._dragging = self._panning = False
-        self._held: set[int] = set()
+        self._panning, self._held = False, set[int]()
         self.names = len(draft.base.robots) + len(draft.base.props) <= MAX_NAMED
         self._plain = False  # whether only the add-ons that can be edited are drawn
         self.tool_name, self.tool = "", Tool(self.desk)
@@ -112,7 +108,7 @@ class Editor:
     @property
     def title(self) -> str:
         """The text of the header."""
-        return self.desk.draft.base.title if self.live else self.dialogs.name
+        return self.desk.draft.base.title if self.live else self.dialogs.wanted.name
 
     @property
     def layout(self) -> Layout:
@@ -141,7 +137,9 @@ class Editor:
             self._held.discard(event.key)
         elif event.type == pygame.WINDOWFOCUSLOST:
             self._held.clear()
-            self._let_go()
+            self._panning = False
+            if self.tool.drag is not None:
+                self.tool.cancel()
         elif event.type == pygame.MOUSEWHEEL and self.panel.plate.collidepoint(self._pointer):
             self.panel.handle(event)
         elif event.type == pygame.MOUSEWHEEL:
@@ -153,18 +151,15 @@ class Editor:
             self._press(event)
         elif event.type == pygame.MOUSEBUTTONUP:
             self._panning = False
-            if self._dragging and event.button == pygame.BUTTON_LEFT:
-                self._dragging = False
+            if event.button == pygame.BUTTON_LEFT:
                 self.tool.release()
 
     def _press_key(self, event: pygame.Event) -> None:
-        if self._dragging and event.key == pygame.K_ESCAPE:
-            self._let_go()
-            return
         again = event.key in self._held
         self._held.add(event.key)
         action = action_of(event, self._actions.values())
-        if self._dragging or (again and not (action is not None and action.repeats)):
+        drags = self.tool.drag is not None and event.key != pygame.K_ESCAPE
+        if drags or (again and not (action is not None and action.repeats)):
             return
         if action is None or action.name not in ("help", "escape"):
             self.help.close()
@@ -196,7 +191,7 @@ class Editor:
         elif event.button == pygame.BUTTON_MIDDLE or pygame.K_SPACE in self._held:
             self._panning = True
         elif event.button == pygame.BUTTON_LEFT and self.layout.plot.collidepoint(event.pos):
-            self._dragging, self.panel.focused = True, False
+            self.panel.focused = False
             self.tool.press(self._world(event.pos))
         elif event.button == pygame.BUTTON_RIGHT and not self.tool.confirm():
             self.tool.cancel()
@@ -205,16 +200,10 @@ class Editor:
         self._pointer = event.pos
         if self._panning:
             self.viewpoint.pan(*event.rel)
-        elif self._dragging or self.layout.plot.collidepoint(event.pos):
+        elif self.tool.drag is not None or self.layout.plot.collidepoint(event.pos):
             self.tool.move(self._world(event.pos))
         else:
             self.tool.pointer = None
-
-    def _let_go(self) -> None:
-        """Cancel the drag."""
-        if self._dragging:
-            self.tool.cancel()
-        self._dragging = self._panning = False
 
     def _world(self, pixel: tuple[int, int]) -> Point:
         ((x, y),) = self.viewpoint.camera.to_world([pixel]).tolist()
@@ -284,6 +273,11 @@ class Editor:
             raise InputError("select something that has a direction first")
         motion = Motion(radians(way * (1.0 if desk.shift else NOTCH)), ring.center)
         desk.put(desk.draft.moved(desk.selection, motion), tag="turn")
+
+    def undo(self) -> None:
+        """Remove the last corner of the outline being drawn, or else undo the last change."""
+        if not self.tool.back():
+            self.desk.go(-1)
 
     def run(self) -> None:
         """Save the file, and run it in a window in the place of this one until that is closed."""
@@ -355,7 +349,7 @@ class Editor:
         if self.tool.remark:
             x, y = (each + round(16 * self.layout.ui) for each in self._pointer)
             draw_tooltip(surface, self.painter, self.tool.remark, topleft=(x, y))
-        if not (self._dragging or self.help.is_open):
+        if self.tool.drag is None and not self.help.is_open:
             self._toolbar.draw_tip(surface, self.painter, self._pointer)
         self.menu.draw(surface, surface.get_rect(), self.painter)
         self.help.draw(surface, self.layout, self.painter, self.groups.items())

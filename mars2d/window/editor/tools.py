@@ -20,7 +20,7 @@ from mars2d.output.raster.theme import LIGHT
 from mars2d.scenario.robot import Robot
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.draft import Draft, Item, Kind, Motion, angle_of, seen_from, tidy
-from mars2d.window.editor.grips import NOTCH, Grip, banding, grip_at, grips, moving, ring_of, sized
+from mars2d.window.editor.grips import NOTCH, Grip, banding, grip_at, grips, moving, sized
 from mars2d.window.widgets.rows import minus
 
 CLICK = 5.0
@@ -183,14 +183,13 @@ class Select(Tool):
 
     def draw(self, scene: Scene) -> None:
         """Draw the ring, the handles and the rectangle."""
-        desk, ring = self.desk, ring_of(self.desk)
-        if ring is not None:
-            radius = dist(ring.center, ring.point)
-            scene.circle(ring.center, radius, stroke=PAPER, width=3.5)
-            scene.circle(ring.center, radius, stroke=MARK, width=1.5)
+        desk = self.desk
         for grip in grips(desk):
             x, y = grip.point
             if grip.look == "ring":
+                radius = dist(grip.center, grip.point)
+                scene.circle(grip.center, radius, stroke=PAPER, width=3.5)
+                scene.circle(grip.center, radius, stroke=MARK, width=1.5)
                 scene.circle((x, y), 0.0, fill=MARK, stroke=PAPER, width=2.0, pixels=7.0)
             elif grip.look == "dot":
                 scene.circle((x, y), 0.0, fill=PAPER, stroke=MARK, width=1.2, pixels=3.2)
