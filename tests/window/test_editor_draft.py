@@ -289,18 +289,9 @@ def test_the_keys_in_the_document_and_the_help_are_those_that_work():
     assert sorted(rows[: len(unique)]) == sorted(unique)
 
 
-@each_case(
-    "key, typed, mod, name, live",
-    [
-        ("0", "=", pygame.KMOD_SHIFT, "pose", False),  # on a German keyboard
-        ("z", "\x1a", pygame.KMOD_CTRL | pygame.KMOD_SHIFT, "redo", False),
-        ("enter", "\r", pygame.KMOD_SHIFT, "start", True),
-        ("f5", "", 0, None, True),
-    ],
-)
-def test_keys_do_what_the_table_says(key, typed, mod, name, live):
-    editor = Editor(Scenario(), Looks(), live=live)
-    code = pygame.key.key_code(key)
-    event = pygame.Event(pygame.KEYDOWN, key=code, unicode=typed, mod=mod)
-    found = action_of(event, [action for group in editor.groups.values() for action in group])
-    assert (found and found.name) == name
+def test_a_sign_is_the_key_that_types_it():
+    shift = {"key": pygame.K_0, "unicode": "=", "mod": pygame.KMOD_SHIFT}  # a German keyboard
+    event = pygame.Event(pygame.KEYDOWN, shift)
+    groups = Editor(Scenario(), Looks()).groups
+    found = action_of(event, [action for group in groups.values() for action in group])
+    assert found.name == "pose"
