@@ -30,7 +30,6 @@ from tests.cases import each_case
 pytestmark = pytest.mark.usefixtures("keyboard")
 
 SQUARE = ((1.0, 1.0), (2.0, 1.0), (2.0, 2.0), (1.0, 2.0))
-BOW = ((0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0))
 
 
 def furnished():
@@ -165,12 +164,6 @@ def test_things_turn_about_a_point_and_come_back():
 # -- faults ---------------------------------------------------------------------------------------
 
 
-def fault(draft):
-    verdict = draft.verdict
-    assert verdict.scenario is None
-    return verdict.text, verdict.culprits
-
-
 @each_case(
     "by, words, other",
     [
@@ -183,7 +176,8 @@ def fault(draft):
 )
 def test_a_robot_that_can_not_stand_where_it_is(by, words, other):
     draft = Draft(furnished()).moved([Item("robot", 0)], Motion(by=by))
-    text, culprits = fault(draft)
+    scenario, text, culprits = draft.verdict
+    assert scenario is None
     assert text.startswith(words)
     assert culprits == {Item("robot", 0), other or Item("robot", 0)}
 
@@ -191,7 +185,7 @@ def test_a_robot_that_can_not_stand_where_it_is(by, words, other):
 def test_outlines_that_are_none():
     words = r"obstacle 1: the polygon crosses or touches itself at \(0.5, 0.5\)"
     with pytest.raises(InputError, match=words):
-        Draft(furnished()).added({Item("outline"): BOW})
+        Draft(furnished()).added({Item("outline"): [(0, 0), (1, 1), (1, 0), (0, 1)]})
 
 
 # -- history, sketch, targets, prompts -------------------------------------------------------------
