@@ -102,10 +102,12 @@ def ring_of(desk: Desk) -> Grip | None:
     body = None if only is None else draft.body(only)
     if body is None and len(points) < 2:
         return None
-    heading = pi / 2 if body is None else body.pose[2]
-    xmin, ymin, xmax, ymax = shapely.total_bounds([draft.shape(item) for item in items])
-    x, y = map(tidy, np.mean(points, axis=0).tolist())  # stays while they turn about it
-    reach = hypot(xmax - xmin, ymax - ymin) / 2 if body is None else body.bound[1]
+    if body is not None:
+        (x, y, heading), reach = body.pose, body.bound[1]
+    else:
+        xmin, ymin, xmax, ymax = shapely.total_bounds([draft.shapes[item] for item in items])
+        x, y = map(tidy, np.mean(points, axis=0).tolist())  # stays while they turn about it
+        reach, heading = hypot(xmax - xmin, ymax - ymin) / 2, pi / 2
     low, high, above = (desk.metres(points) for points in (MIN_RING, MAX_RING, 16.0))
     radius = min(max(reach + above, low), high)
 
