@@ -35,7 +35,7 @@ from mars2d.window.widgets.buttons import Buttons
 from mars2d.window.widgets.help import Help
 from mars2d.window.widgets.menu import Menu
 from mars2d.window.widgets.prompt import Answer
-from mars2d.window.widgets.rows import Word, minus, write_line
+from mars2d.window.widgets.rows import Word, minus, width_of, write_line
 from mars2d.window.widgets.slider import draw_tooltip
 
 NUDGES = {"←": (-1, 0), "→": (1, 0), "↑": (0, 1), "↓": (0, -1)}
@@ -378,8 +378,10 @@ class Editor:
             painter.panel(surface, place, fill, 7 * ui, theme.selected if hover else theme.key_edge)
             painter.write(surface, action.title, 15 * ui, color, bold=first, center=place.center)
             right = place.left - round(8 * ui)
-        words = Word(self.title, theme.ink, 20, bold=True), Word(note, theme.muted, 14)
-        write_line(surface, pygame.Rect(pad, bar.top, right - pad, bar.height), painter, words)
+        words = [Word(self.title, theme.ink, 20, bold=True), Word(note, theme.muted, 14)]
+        room = pygame.Rect(pad, bar.top, right - pad, bar.height)
+        fits = width_of(painter, words) < room.width
+        write_line(surface, room, painter, words if fits else words[:1])
 
     def _draw_plot(self, surface: pygame.Surface) -> None:
         scene, draft = Scene(), self.desk.draft
