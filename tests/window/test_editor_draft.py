@@ -98,6 +98,8 @@ def test_copies_are_tied_as_their_models_are():
     assert both.verdict.text == ""
     one = draft.copied([Item("prop", 0)], Motion(by=(0.0, -3.0)))
     assert len(one.base.joints) == 2
+    copy = Draft(furnished()).copied([Item("route", 1), Item("robot", 1)], Motion(by=(0.0, 1.0)))
+    assert copy.listed["route"] == ((), ((-3, 3), (-2, 3)), ((-3, 4), (-2, 4)))
 
 
 def test_the_pin_of_a_hinge_stays_one_point_when_a_body_moves():

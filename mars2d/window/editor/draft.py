@@ -300,8 +300,10 @@ class Draft:
         left = {item: v for item, v in {**self.things, **values}.items() if v is not None}
         found: dict[str, list[Any]] = {kind: [] for kind in self.listed}
         for item, value in left.items():
-            new = item in values and item.kind in LEAST
-            found[item.kind].append(_checked(self.name(item), item, value) if new else value)
+            if item in values and item.kind in LEAST and item.kind != "route":
+                closed = item.kind != "wall"
+                value = checks.outline(self.name(item), value, LEAST[item.kind], closed=closed)  # noqa: PLW2901
+            found[item.kind].append(value)
         bodies = {part.name: part.rigid for kind in BODIES for part in found[kind]}
         gone = self.names([item for item in self.things if item not in left])
         moved = {
@@ -383,16 +385,21 @@ class Draft:
         return draft.changed(values)
 
     def added(self, models: Mapping[Item, Any]) -> Self:
-        """Return the draft with one more item for each, of its kind; corners go on with a route.
+        """Return the draft with one more item for each, of its kind.
 
-        Bodies and beacons get new names.
+        Bodies and beacons get new names. A route is that of the robot before it, if this is a model
+        as well; else it goes on with the robot's route.
         """
         taken = {part.name for part in self._members()} | {a.key for a in self.base.addons}
         new: dict[Item, Any] = {}
+        numbers: dict[Item, int] = {}
         for item, value in models.items():
-            place = Item(item.kind, len(self.listed[item.kind]) + len(new))
+            number = numbers[item] = len(self.listed[item.kind]) + len(new)
+            place, robot = Item(item.kind, number), Item("robot", item.number)
             if item.kind == "route":
-                place, value = item, (*self.things.get(item, ()), *value)  # noqa: PLW2901
+                old = () if robot in numbers else self.things.get(item, ())
+                place = Item("route", numbers.get(robot, item.number))
+                value = (*old, *value)  # noqa: PLW2901
             elif item.kind in (*BODIES, "beacon"):
                 names = map(f"{snake_case(type(value).__name__)}{{}}".format, count())
                 name = next(name for name in names if name not in taken)
@@ -467,13 +474,3 @@ def _with_fields(addons: Sequence[Any], kind: type[Any], **fields: list[Any]) ->
         new = [kind(**fields) if owner is None else owner.replace(**fields)]
     place = len(addons) if owner is None else addons.index(owner)
     return [*addons[:place], *new, *addons[place + 1 :]]
-
-
-def _checked(name: str, item: Item, corners: Any) -> Outline:
-    """Return the corners of an item; InputError if it is none."""
-    closed = item.kind in ("workspace", "outline")
-    return (
-        corners
-        if item.kind == "route"
-        else checks.outline(name, corners, LEAST[item.kind], closed=closed)
-    )
