@@ -13,6 +13,7 @@ from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.compare_window import CompareWindow
 from mars2d.window.editor import Editor
+from mars2d.window.editor_window import play
 from mars2d.window.run.window import Window
 from mars2d.window.screen.display import Preferences
 from mars2d.window.screen.looks import Looks
@@ -82,7 +83,7 @@ def made_editor(source, folder, path=None, **options):
     scenario = Scenario() if empty else open_experiment(source).scenario
     path = path or (None if empty else source)
     path = None if path is None else Path(path)
-    return Editor(scenario, Looks(), path=path, empty=empty, **options)
+    return Editor(scenario, Looks(), path=path, empty=empty, play=play, **options)
 
 
 def of_window(window):
@@ -241,7 +242,6 @@ def of_editor(editor):
         "corners": len(getattr(editor.tool, "corners", ())),
         "scale": round(desk.viewpoint.camera.scale, 3),
         "origin": [round(desk.viewpoint.camera.x, 2), round(desk.viewpoint.camera.y, 2)],
-        "camera": [desk.viewpoint.camera.scale, desk.viewpoint.camera.x, desk.viewpoint.camera.y],
     }
 
 

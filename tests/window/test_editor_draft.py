@@ -6,7 +6,7 @@ from pathlib import Path
 import pygame
 import pytest
 
-from mars2d.addons import Beacon, Estimate, Game, Map, Voronoi, Waypoints
+from mars2d.addons import Addon, Beacon, Estimate, Game, Map, Voronoi, Waypoints
 from mars2d.bodies.joints import Hinge, Rope
 from mars2d.bodies.props import Ball, Box
 from mars2d.core.errors import InputError
@@ -268,6 +268,14 @@ def test_a_draft_of_an_example_is_that_scenario_again_and_can_be_emptied(name):
     editor.desk.put(editor.desk.draft.without(editor.desk.draft.items()))
     editor.draw(surface)
     assert "no robot" in editor.desk.settled.verdict.text
+
+
+def test_what_can_not_be_drawn_can_be_edited():
+    broken = type("Broken", (Addon,), {"draw": None})
+    editor = Editor(Scenario(addons=[broken()]), Looks())
+    for _ in range(2):
+        editor.draw(pygame.Surface((320, 240), 0, 32))
+        assert "Add-ons are not drawn: " in editor.desk.notice
 
 
 def test_the_keys_in_the_document_and_the_help_are_those_that_work():

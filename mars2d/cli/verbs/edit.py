@@ -38,7 +38,7 @@ def execute(arguments: argparse.Namespace) -> None:
         path = experiment.source.path or path
     require_display(NO_DISPLAY)
     from mars2d.window.editor import Editor
-    from mars2d.window.editor_window import show_editor
+    from mars2d.window.editor_window import play, show_editor
     from mars2d.window.screen.looks import Looks
 
     robots_wanted = any(name.partition(".")[0] == "robots" for name in options)
@@ -49,6 +49,7 @@ def execute(arguments: argparse.Namespace) -> None:
         control=experiment.control,
         empty=new and not robots_wanted,
         changed=bool(options),
+        play=play,
     )
     try:
         show_editor(editor)

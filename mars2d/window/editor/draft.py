@@ -105,16 +105,14 @@ class Draft:
             return self.with_base(workspace=BLANK).base
         return shown
 
-    def frame(self, *, plain: bool = False) -> Frame:
-        """Return the instant before the start; plain: only with add-ons that are drawn by hand."""
-        drawn = (addon for addon in self.base.addons if isinstance(addon, (Map, Waypoints, Beacon)))
-        shown = Draft(self.sketch).with_base(addons=tuple(drawn)).base if plain else self.sketch
+    def frame(self) -> Frame:
+        """Return the instant before the start."""
         pose, prop_pose = (
             np.array([part.pose for part in parts], dtype=float).reshape(-1, 3).T
             for parts in (self.base.robots, self.base.props)
         )
         nothing = np.empty((0, 3, len(self.base.robots)))
-        return Frame(shown, 0.0, 0, pose, nothing, prop_pose=prop_pose)
+        return Frame(self.sketch, 0.0, 0, pose, nothing, prop_pose=prop_pose)
 
     # -- its items ------------------------------------------------------------------------------
 

@@ -18,7 +18,6 @@ from mars2d.output.raster.bars import Banner, draw_footer, footer_height
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.stage import Stage
 from mars2d.output.raster.theme import LIGHT
-from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor.actions import TOOLS, actions_of
 from mars2d.window.editor.desk import Desk
@@ -29,7 +28,6 @@ from mars2d.window.editor.properties import Properties
 from mars2d.window.editor.tools import MARK, PAPER, Tool, draw_outline
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.viewpoint import Viewpoint, wheel_notches
-from mars2d.window.show import show_experiment
 from mars2d.window.widgets.actions import action_of, label_of
 from mars2d.window.widgets.buttons import Buttons
 from mars2d.window.widgets.help import Help
@@ -63,8 +61,8 @@ class Editor:
 
     path: the scenario's file; one that is not .toml only lends its name. live: whether a paused run
     is edited, which can continue with the outcome. control: the team's law, for the file. empty:
-    start without robots. changed: the scenario differs from the file. dialogs: save, run or apply
-    the draft. names: whether names are shown.
+    start without robots. changed: the scenario differs from the file. play: runs a file in a window
+    that looks as this one does. dialogs: save or apply the draft. names: whether names are shown.
     """
 
     def __init__(
@@ -77,9 +75,10 @@ class Editor:
         control: Callable[[Any], Any] | None = None,
         empty: bool = False,
         changed: bool = False,
+        play: Callable[[Path, Looks, Viewpoint], object] = lambda *_: None,
     ) -> None:
         """Open a scenario; nothing is drawn yet."""
-        self.looks, self.live, self.help = looks, live, Help()
+        self.looks, self.live, self.help, self._play = looks, live, Help(), play
         painter = self.painter = looks.painter
         draft = Draft(scenario)
         if empty:  # no scenario can be without robots
@@ -95,7 +94,7 @@ class Editor:
         self._pointer = (-1, -1)
         self._panning, self._held = False, set[int]()
         self.names = len(draft.base.robots) + len(draft.base.props) <= MAX_NAMED
-        self._plain = False  # whether only the add-ons that can be edited are drawn
+        self._addons = True  # whether add-ons are drawn
         self.tool_name, self.tool = "", Tool(self.desk)
         self.choose("select")
         self.groups = actions_of(self)
@@ -286,9 +285,7 @@ class Editor:
             self.dialogs.save(then=self.run)
             return
         try:
-            experiment = open_experiment(path)
-            speed, likes = experiment.scenario.animation.playback_speed, self.looks.preferences
-            show_experiment(experiment, speed, preferences=likes, viewpoint=self.viewpoint)
+            self._play(path, self.looks, self.viewpoint)
         finally:
             pygame.event.clear()
             self._held.clear()
@@ -391,20 +388,19 @@ class Editor:
         for item in self.desk.settled.verdict.culprits & draft.things.keys():
             draw_outline(draft, item, scene, RED, 3.0, faded(RED, 0.3))
         self.tool.draw(scene)
-        plot, camera = self.layout.plot, self.viewpoint.camera
-        frame = draft.frame(plain=self._plain)
         if self.names:
             self._draw_remarks(draft, scene)
-        layers, hurried = LAYERS.switched(names=self.names), self.viewpoint.hurried
+        layers = LAYERS.switched(names=self.names, addons=self._addons)
         try:
             self._stage.draw(
-                surface, frame, camera, layers, plot, marks=scene.shapes, hurried=hurried
-            )
-        except Mars2dError as error:  # raised by another add-on's drawing
-            if self._plain:
+                surface, draft.frame(), self.viewpoint.camera, layers, self.layout.plot,
+                marks=scene.shapes, hurried=self.viewpoint.hurried,
+            )  # fmt: skip
+        except Mars2dError as error:  # raised by an add-on's drawing
+            if not self._addons:
                 raise
-            self._plain = True
-            self.desk.say(f"Other add-ons are not drawn: {error}", warns=True)
+            self._addons = False
+            self.desk.say(f"Add-ons are not drawn: {error}", warns=True)
             self._draw_plot(surface)
 
     def _draw_remarks(self, draft: Draft, scene: Scene) -> None:
