@@ -180,6 +180,7 @@ def test_a_drag_moves_what_is_selected_on_the_grid_and_g_frees_it(open_editor):
     hands.drag((0.03, 0), (0.5, 0.6), (1.02, 1.03))
     hands.until(lambda s: near(s["robots"], [(-2, 1, 0), (1, 1, 0)], 1e-9))
     hands.press("g")
+    hands.until(lambda s: s["notice"] == "points are free")
     hands.drag((1, 1), (1.2, 1.2), (1.31, 1.27))
     hands.until(lambda s: near(s["robots"][1][:2], (1.31, 1.27), 0.03))
     x = hands.state["robots"][1][0]

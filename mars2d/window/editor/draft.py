@@ -146,21 +146,19 @@ class Draft:
 
     def new_since(self, before: Draft) -> list[Item]:
         """Return the items that an earlier draft did not have as they are now."""
-        now, then = (Counter(map(draft._key, draft.items())) for draft in (self, before))
-        new = now - then
-        return [item for item in self.items() if self._key(item) in new]
-
-    def _key(self, item: Item) -> tuple[object, ...]:
-        """Return what tells an item from others of its kind."""
-        value = self.things[item]
-        return item.kind, value if isinstance(value, tuple) else id(value)
+        now, then = (
+            {i: (i.kind, v if isinstance(v, tuple) else id(v)) for i, v in draft.things.items()}
+            for draft in (self, before)
+        )
+        new = Counter(now.values()) - Counter(then.values())
+        return [item for item in self.items() if now[item] in new]
 
     def name(self, item: Item) -> str:
         """Return an item's name in words."""
+        words = {"workspace": "the workspace", "outline": f"obstacle {item.number}"}
+        if item.kind == "route":
+            return f"the route of {self.base.robots[item.number].name}"
         if item.kind in LEAST:
-            words = {"workspace": "the workspace", "outline": f"obstacle {item.number}"}
-            if item.kind == "route":
-                return f"the route of {self.base.robots[item.number].name}"
             return words.get(item.kind, f"wall {item.number}")
         value = self.things[item]
         return value.key if item.kind == "beacon" else str(value.name)

@@ -120,7 +120,7 @@ class Tool:
     def remark(self) -> str:
         """What to show beside the pointer: the size, heading or place that the drag changes."""
         now, before = self.desk.draft, self.desk.settled
-        changed = now.new_since(before) if self.drag is not None and self.moved else []
+        changed = now.new_since(before) if self.moved else []
         if len(changed) != 1:
             return ""
         known = before.described(changed[0]) if changed[0] in before.things else []
