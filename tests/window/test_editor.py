@@ -167,6 +167,8 @@ def test_click_shift_click_and_a_rectangle_select(open_editor):
     hands.until(lambda s: s["selection"] == [])
     hands.drag((-4, 1), (-1, 0), (1, -1))
     hands.until(lambda s: s["selection"] == [["robot", 0], ["robot", 1]])
+    hands.click(0, 0)  # one of several
+    hands.until(lambda s: s["selection"] == [["robot", 1]])
     hands.press("ctrl+a", "Delete")
     hands.until(lambda s: s["robots"] == [] and "no robot" in s["fault"])
 
@@ -188,15 +190,15 @@ def test_a_drag_moves_what_is_selected_on_the_grid_and_g_frees_it(open_editor):
 
 
 def test_the_ring_turns_and_shift_makes_steps_of_15_degrees(open_editor):
-    hands = open_editor(team((0, 0)))
+    hands = open_editor(team((0, 0, pi / 2)))
     hands.click(0, 0)
     reach = max(30 * 0.9 / hands.state["scale"], 0.3 + 16 * 0.9 / hands.state["scale"])
-    hands.drag((reach, 0), (2, 2), (0.5, 2.5))
+    hands.drag((0, reach), (2, 2), (0.5, 2.5))
     heading = hands.settle()["robots"][0][2]
     assert degrees(heading) == pytest.approx(degrees(np.arctan2(2.5, 0.5)), abs=1.2)
     hands.press("ctrl+z")
     hands.do("keydown", "shift")
-    hands.drag((reach, 0), (2, 2), (1, 2.5))
+    hands.drag((0, reach), (2, 2), (1, 2.5))
     hands.do("keyup", "shift")
     assert degrees(hands.settle()["robots"][0][2]) == pytest.approx(75)  # of 68.2
 

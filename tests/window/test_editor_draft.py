@@ -123,6 +123,7 @@ def test_a_body_that_is_moved_starts_there_and_no_longer_at_random():
     assert moved.base.replace().started(seed=9).robots[0].pose[:2] == (3, 3)
     assert moved.base.replace().started(seed=9).robots[1].pose != moved.base.robots[1].pose
     assert moved.without([blue]).base.replace().random_starts == ()
+    assert not draft.added({Item("joint"): Rope(a="red", b="blue")}).starts_at_random(red)
 
 
 def test_a_new_name_holds_wherever_the_body_is_mentioned():
