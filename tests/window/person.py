@@ -116,14 +116,11 @@ class Person:
             return self.state
         self._repeat()
         events, self._events = self._events, []
-        self.state = self._edited(events) if self.is_editor else self._played(events)
+        edits = isinstance(self.shown, Editor)
+        self.state = self._edited(events) if edits else self._played(events)
         self.state = json.loads(json.dumps(self.state))
         self.display.clock += PICTURE
         return self.state
-
-    @property
-    def is_editor(self):
-        return isinstance(self.shown, Editor)
 
     def _edited(self, events):
         editor = self.shown

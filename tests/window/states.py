@@ -223,7 +223,6 @@ def of_editor(editor):
         "culprits": sorted(desk.settled.verdict.culprits),
         "prompt": None if prompt is None else prompt.label,
         "typed": None if prompt is None or prompt.field is None else prompt.text,
-        "answers": {} if prompt is None else menu,
         "error": None if prompt is None else prompt.error,
         "laws": [law_of(robot) for robot in draft.base.robots],
         "drives": [repr(robot.drive) for robot in draft.base.robots],

