@@ -41,13 +41,12 @@ def execute(arguments: argparse.Namespace) -> None:
     from mars2d.window.editor_window import play, show_editor
     from mars2d.window.screen.looks import Looks
 
-    robots_wanted = any(name.partition(".")[0] == "robots" for name in options)
     editor = Editor(
         experiment.scenario,
         Looks(preferences_of(arguments)),
         path=path,
         control=experiment.control,
-        empty=new and not robots_wanted,
+        empty=new and not any(name.partition(".")[0] == "robots" for name in options),
         changed=bool(options),
         play=play,
     )
