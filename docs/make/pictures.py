@@ -24,7 +24,7 @@ from mars2d.scenario import open_experiment
 from mars2d.scenario.controllers import FollowWall
 from mars2d.window.compare_window import CompareWindow
 from mars2d.window.editor import Editor
-from mars2d.window.editor.item import Item
+from mars2d.window.editor.draft import Item
 from mars2d.window.run.ghosts import ghosts
 from mars2d.window.run.grab import Grab
 from mars2d.window.run.window import Window
@@ -211,7 +211,7 @@ def editor(path: Path, drags: tuple[list[tuple[float, float]], ...] = ()) -> Non
     kinds = pygame.MOUSEBUTTONDOWN, pygame.MOUSEMOTION, pygame.MOUSEBUTTONUP
     for points in ([(2, -0.8)] * 3, *drags):
         for kind, point in zip(kinds, points, strict=True):
-            (pixel,) = drawn.desk.camera.to_pixels([point]).round().astype(int).tolist()
+            (pixel,) = drawn.viewpoint.camera.to_pixels([point]).round().astype(int).tolist()
             buttons = {"buttons": (1, 0, 0), "rel": (0, 0)}
             drawn.handle(pygame.event.Event(kind, pos=tuple(pixel), button=1, **buttons))
         drawn.draw(surface)

@@ -13,7 +13,7 @@ from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.compare_window import CompareWindow
 from mars2d.window.editor import Editor
-from mars2d.window.editor_window import EditorWindow
+from mars2d.window.editor_window import play
 from mars2d.window.run.window import Window
 from mars2d.window.screen.display import Preferences
 from mars2d.window.screen.looks import Looks
@@ -75,7 +75,7 @@ def _source(options):
 
 
 def made_editor(source, folder, path=None, **options):
-    """Return the window of an editor of a scenario, a file, or of nothing yet: "-"."""
+    """Return an editor of a scenario, a file, or of nothing yet: "-"."""
     if isinstance(source, Scenario):
         save_scenario(source, folder / "given.toml")
         source = folder / "given.toml"
@@ -83,7 +83,7 @@ def made_editor(source, folder, path=None, **options):
     scenario = Scenario() if empty else open_experiment(source).scenario
     path = path or (None if empty else source)
     path = None if path is None else Path(path)
-    return EditorWindow(Editor(scenario, Looks(), path=path, empty=empty, **options), (800, 600))
+    return Editor(scenario, Looks(), path=path, empty=empty, play=play, **options)
 
 
 def of_window(window):
@@ -213,17 +213,16 @@ def of_editor(editor):
         "props": [[type(p).__name__, *p.pose, *_sizes(p)] for p in draft.base.props],
         "outlines": draft.listed["outline"],
         "walls": draft.listed["wall"],
-        "routes": draft.listed["waypoint"],
+        "routes": draft.listed["route"],
         "beacons": [beacon.position for beacon in draft.listed["beacon"]],
         "workspace": draft.base.workspace,
         "selection": desk.selection,
         "corner": desk.corner,
         "notice": desk.notice,
-        "fault": editor.verdict.text,
-        "culprits": sorted(editor.verdict.culprits),
+        "fault": desk.settled.verdict.text,
+        "culprits": sorted(desk.settled.verdict.culprits),
         "prompt": None if prompt is None else prompt.label,
         "typed": None if prompt is None or prompt.field is None else prompt.text,
-        "answers": {} if prompt is None else menu,
         "error": None if prompt is None else prompt.error,
         "laws": [law_of(robot) for robot in draft.base.robots],
         "drives": [repr(robot.drive) for robot in draft.base.robots],
@@ -240,9 +239,8 @@ def of_editor(editor):
         "step": desk.step,
         "changed": desk.changed,
         "corners": len(getattr(editor.tool, "corners", ())),
-        "scale": round(desk.camera.scale, 3),
-        "origin": [round(desk.camera.x, 2), round(desk.camera.y, 2)],
-        "camera": [desk.camera.scale, desk.camera.x, desk.camera.y],
+        "scale": round(desk.viewpoint.camera.scale, 3),
+        "origin": [round(desk.viewpoint.camera.x, 2), round(desk.viewpoint.camera.y, 2)],
     }
 
 

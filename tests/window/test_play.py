@@ -195,8 +195,10 @@ def play(open_window):
 def test_a_role_is_chosen_counted_down_and_driven(play, way):
     person = play(1.0, "corner_game")
     assert person.state["game"]["seats"] == []
-    person.press("space", "n")  # begin nothing yet
-    assert person.settle()["time"] == 0
+    person.press("space", "n", "d", "e")  # keys are the menu's: they begin and open nothing
+    state = person.settle()
+    assert (state["time"], state["dark"], state["editor"]) == (0, False, None)
+    assert state["chosen"] == "evader"
     if way == "number":
         person.press("2")
     else:

@@ -198,8 +198,7 @@ class Menu:
                 self.close()
             return name == "escape" and not self._stays
         else:
-            found = self._type(event.unicode.lower(), entries)
-            return found or not self._stays or name in ("left", "right")
+            self._type(event.unicode.lower(), entries)
         return True
 
     def _move(self, by: int) -> None:
@@ -212,13 +211,10 @@ class Menu:
         ahead = sorted((k for k in able if way * (k - self._chosen) > 0), key=lambda k: way * k)
         self._chosen = ahead[min(abs(by), len(ahead)) - 1] if ahead else able[0 if by > 0 else -1]
 
-    def _type(self, letter: str, entries: Sequence[Entry]) -> bool:
-        """Choose the next entry that begins with the letters typed so far, or with this one.
-
-        Return whether there is one.
-        """
+    def _type(self, letter: str, entries: Sequence[Entry]) -> None:
+        """Choose the next entry that begins with the letters typed so far, or with this one."""
         if not letter.isprintable() or not letter:
-            return False
+            return
         order = [*range(self._chosen, len(entries)), *range(max(self._chosen, 0))]
         longer = self._typed + letter
         for typed, numbers in ((longer, order), (letter, [*order[1:], *order[:1]])):
@@ -227,8 +223,7 @@ class Menu:
             k = next(found, None)
             if k is not None:
                 self._chosen, self._typed, self._sought = k, typed, True
-                return True
-        return False
+                return
 
     # -- drawing --------------------------------------------------------------------------------
 
