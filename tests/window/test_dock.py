@@ -7,10 +7,12 @@ import pygame
 from mars2d import Robot, Scenario, World
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
+from mars2d.output.raster.theme import LIGHT
 from mars2d.window.panels.lesson import Lesson
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.dock import Dock
 from mars2d.window.widgets.panel import Panel
+from mars2d.window.widgets.rows import Word
 from tests.cases import each_case
 from tests.window.written import Written, painter
 
@@ -24,6 +26,7 @@ class Plain(Panel):
     """A panel that remembers what happened to it."""
 
     def __init__(self, name, least=100.0, wanted=200.0):
+        super().__init__(Painter())
         self.name, self.title = name, name.title()
         self.size, self.events, self.drags = (least, wanted), [], False
 
@@ -121,6 +124,29 @@ def test_the_one_opened_last_is_seen_even_where_it_needs_all_the_room():
     plate = seen.dock.plates["inspector"]
     assert plate.height > 0.85 * seen.layout.plot.height
     assert seen.layout.plot.contains(plate)
+
+
+@each_case("size, text", [((640, 400), 2.2), ((640, 400), 1.0), ((480, 320), 2.2)])
+def test_however_small_the_picture_a_panel_that_is_opened_is_seen(size, text):
+    seen = Seen(some(1), size, text=text)
+    (plate,) = seen.dock.plates.values()
+    assert seen.layout.plot.contains(plate)
+    assert seen.click(seen.dock.closes["panel0"].center)
+
+
+def test_the_lines_of_a_table_have_one_size_and_never_overlap():
+    panel, color = Panel(painter(Layout.of((640, 400)), LIGHT)), LIGHT.ink
+    for width in (150, 232, 316, 900):
+        surface = Written((width, 100))
+        lines = [("", "a_long_name", "b", "both"), ("before, along [m/s]", "1", "2", "3 nearer"),
+                 ("momentum before [N s]", "", "", "(1.23, 4.56)")]  # fmt: skip
+        cells = [[[Word(each, color)] * bool(each) for each in line] for line in lines]
+        for k, row in enumerate(panel.table(cells)):
+            row.draw(surface, pygame.Rect(0, 20 * k, width, 20))
+        assert not surface.crowded(), width
+        assert not surface.cut(), width
+        assert len({place.height for _, place in surface.words}) == 1
+        assert len({surface.place(word).right for word in ("3 nearer", "(1.23, 4.56)")}) == 1
 
 
 def test_a_panel_of_what_is_selected_leaves_the_arena_where_it_is_until_it_is_fitted():

@@ -22,8 +22,7 @@ OFTEN = 0.2
 SHARE = 0.04
 """The largest share of the time that `checks` may take."""
 
-TITLES, ENDS = ("predicted", "measured", "tolerance"), (0.28, 0.58, 1.0)
-"""The columns, and where they end, in parts of the width."""
+TITLES = "predicted", "measured", "tolerance"
 GAP = 6.0
 """The height of the gap below a prediction, points."""
 MAX_WORDS = 6
@@ -95,8 +94,13 @@ class Predictions(Panel):
         found, muted = self.reading.predictions, self.painter.theme.muted
         if not found:
             return self._said(width)
-        titles = self.table([Word(each, muted) for each in TITLES], ENDS)
-        return [titles, *(row for each in found for row in self._rows_of(each))]
+        titles = [[Word(each, muted)] for each in TITLES]
+        rows = iter(self.table([[[], *titles], *map(self._numbers, found)]))
+        listed = [next(rows)]
+        for each, row in zip(found, rows, strict=True):
+            why = self.line([Word(each.reason, muted)])
+            listed += [self._head(each), why if each.reason else row, self.gap(GAP)]
+        return listed
 
     def foot(self, width: float) -> Sequence[Row]:
         """Return lines about the run, and about values that could not be read."""
@@ -108,22 +112,24 @@ class Predictions(Panel):
         color = theme.error.ink if failed else theme.muted
         return [*self.wrapped(Word(self._words(), color), width, MAX_WORDS)]
 
-    def _rows_of(self, p: Prediction) -> list[Row]:
-        """Return a prediction: its name and how it stands, and below that its numbers."""
+    def _head(self, prediction: Prediction) -> Row:
+        """Return a prediction's name and how it stands."""
+        said, color = self._verdict(prediction, self.painter.theme)
+        name = [Word(DOT, color), Word(prediction.name, self.painter.theme.ink)]
+        return self.line(name, [Word(said, color, bold=True)])
+
+    def _numbers(self, prediction: Prediction) -> list[list[Word]]:
+        """Return the cells of a line: what is predicted and measured, and the tolerance."""
         theme = self.painter.theme
-        said, color = self._verdict(p, theme)
-        name = [Word(DOT, color), Word(p.name, theme.ink)]
-        head = self.line(name, [Word(said, color, bold=True)])
-        if p.reason:
-            return [head, self.line([Word(p.reason, theme.muted)]), self.gap(GAP)]
-        predicted, measured, tolerance = cells(p)[-3:]
-        measured = measured if math.isfinite(p.measured) else "-"
-        ink = color if self.reading.finished else theme.text
-        words = [
-            Word(predicted, theme.text), Word(measured, ink, bold=True),
-            Word(f"{tolerance} {p.unit}".strip(), theme.text),
-        ]  # fmt: skip
-        return [head, self.table(words, ENDS), self.gap(GAP)]
+        predicted, measured, tolerance = cells(prediction)[-3:]
+        measured = measured if math.isfinite(prediction.measured) else "-"
+        ink = self._verdict(prediction, theme)[1] if self.reading.finished else theme.text
+        return [
+            [],
+            [Word(predicted, theme.text)],
+            [Word(measured, ink, bold=True)],
+            [Word(f"{tolerance} {prediction.unit}".strip(), theme.text)],
+        ]
 
     def _verdict(self, prediction: Prediction, theme: Theme) -> tuple[str, str]:
         """Return how a prediction stands, in words, and their colour."""

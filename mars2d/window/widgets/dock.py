@@ -13,14 +13,14 @@ from mars2d.output.raster.layout import Bounds, Layout, fitted
 from mars2d.output.raster.painter import Painter
 from mars2d.window.widgets.buttons import draw_icon
 from mars2d.window.widgets.panel import Frame, Panel
-from mars2d.window.widgets.rows import Word, write_line
+from mars2d.window.widgets.rows import write_line
 
 Pixel = tuple[int, int]
 
 WIDTH, MIN_WIDTH = 344.0, 210.0
-"""The width of a column, points, and the width below which nothing is drawn."""
+"""The width of a column, and the least width if the picture has it, points."""
 MAX_SHARE = 0.46
-"""The largest share of the picture's width for a column, and of its height for a strip."""
+"""The largest share of the picture's width for a wider column, and of its height for a strip."""
 MARGIN, PAD, HEAD = 12.0, 14.0, 34.0
 """The gap round a panel, the margin in it, and the height of its title, points."""
 CLOSE = 26.0
@@ -190,9 +190,8 @@ class Dock:
         arena: how high it is where there are no panels, pixels.
         """
         ui, plot, gap = self.painter.ui, self._plot, round(MARGIN * self.painter.ui)
-        shown, width = self._shown, round(min(WIDTH * ui, MAX_SHARE * plot.width))
-        if width < MIN_WIDTH * ui:
-            return
+        shown, width = self._shown, max(MAX_SHARE * plot.width, MIN_WIDTH * ui)
+        width = round(min(WIDTH * ui, width, plot.width - 2 * gap))
 
         def lanes(area: pygame.Rect, count: int) -> list[pygame.Rect]:
             wide, high = (area.width - gap) // count - gap, area.height - 2 * gap
@@ -218,8 +217,7 @@ class Dock:
         """Return the least and the wanted height of a whole panel in a lane, pixels."""
         ui = self.painter.ui
         least, wanted = panel.heights(frame, lane.width / ui - 2 * PAD)
-        more = PAD + (HEAD if panel.headed else 0)
-        return min((least + more) * ui, lane.height), (wanted + more) * ui
+        return min((least + PAD + HEAD) * ui, lane.height), (wanted + PAD + HEAD) * ui
 
     def _plates(self, frame: Frame) -> dict[str, pygame.Rect]:
         """Return where panels stand, by name; sets which are not seen whole.
@@ -313,14 +311,10 @@ class Dock:
         folded = panel.name in self._folded
         pad, head = round(PAD * ui), round(HEAD * ui)
         self.painter.panel(surface, plate, theme.plate, 8 * ui, theme.edge)
-        inside = plate.inflate(-2 * pad, -pad)
-        top = pygame.Rect(inside.topleft, (inside.width, head))
-        if panel.headed or folded:
-            top.top = plate.top
-            inside.height, inside.top = inside.bottom - top.bottom, top.bottom
-            color = theme.muted if folded else theme.ink
-            line = pygame.Rect(top.topleft, (top.width - round(CLOSE * ui), head))
-            write_line(surface, line, self.painter, [Word(panel.title, color, 13.5, bold=True)])
+        inside, top = plate.inflate(-2 * pad, -pad), pygame.Rect(0, plate.top, 0, head)
+        top.width, top.left = inside.width - round(CLOSE * ui), inside.left
+        inside.height, inside.top = inside.bottom - top.bottom, top.bottom
+        write_line(surface, top, self.painter, *panel.head(frame))
         if not folded:
             panel.draw(surface, inside, frame)
         close = pygame.Rect(0, 0, round(CLOSE * ui), round(CLOSE * ui))
