@@ -138,7 +138,7 @@ def test_the_lines_of_a_table_have_one_size_and_never_overlap():
     panel, color = Panel(painter(Layout.of((640, 400)), LIGHT)), LIGHT.ink
     for width in (150, 232, 316, 900):
         surface = Written((width, 100))
-        lines = [("", "a_long_name", "b", "both"), ("before, along [m/s]", "1", "2", "3 nearer"),
+        lines = [("", "a long name", "b", "both"), ("before, along [m/s]", "1", "2", "3 nearer"),
                  ("momentum before [N s]", "", "", "(1.23, 4.56)")]  # fmt: skip
         cells = [[[Word(each, color)] * bool(each) for each in line] for line in lines]
         for k, row in enumerate(panel.table(cells)):
