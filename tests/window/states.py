@@ -137,7 +137,9 @@ def of_run(window):
         "menu": {title: at.center for title, at in window.menu.places.items()},
         "chosen": window.menu.chosen,
         "closes": {name: place.center for name, place in window.dock.closes.items()},
-        "scopes": {trace.name: [*trace.bodies] for trace in window.dock.scopes.traces},
+        "scopes": {
+            getattr(what, "__name__", what): [*bodies] for what, bodies in scopes.traces.items()
+        },
         "areas": {each.signal.name: [*each.area.move(corner)] for each in plots},
         "panels": {name: [*plate] for name, plate in window.dock.plates.items()},
         "plot": [*window.layout.plot],

@@ -10,7 +10,7 @@ from mars2d.output.raster.fonts import Fonts
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
 from mars2d.window.widgets.actions import Action
-from mars2d.window.widgets.rows import Row, height_of
+from mars2d.window.widgets.rows import Row, draw_rows, height_of
 
 SHARES = (1.0, 0.85, 0.7)
 """The scales that are tried until all is on one page, as shares of the window's."""
@@ -91,10 +91,7 @@ class Help:
         painter.write(surface, word, 14 * ui, theme.muted, midright=end)
         for k, column in enumerate(columns[self.page * count : (self.page + 1) * count]):
             place = pygame.Rect(plate.left + pad + k * step, plate.top + round(TOP * ui), width, 0)
-            for row in column:
-                place.height = round(row.height * ui)
-                row.draw(surface, place)
-                place.top = place.bottom
+            draw_rows(surface, column, place, ui)
         painter.ui = largest
 
 

@@ -9,7 +9,16 @@ from typing import Any
 import pygame
 
 from mars2d.output.raster.painter import Painter
-from mars2d.window.widgets.rows import BAR, Row, Scroll, Word, columns, height_of, write_line
+from mars2d.window.widgets.rows import (
+    BAR,
+    Row,
+    Scroll,
+    Word,
+    columns,
+    draw_rows,
+    height_of,
+    write_line,
+)
 
 Frame = Any
 """What panels show: the dock passes it on."""
@@ -105,10 +114,7 @@ class Panel:
         for k, place in seen:
             rows[k].draw(surface, place)
         self.scroll.draw_bar(surface, self.painter, area)
-        top = area.bottom
-        for row in foot:
-            row.draw(surface, pygame.Rect(rect.left, top, rect.width, round(row.height * ui)))
-            top += round(row.height * ui)
+        draw_rows(surface, foot, pygame.Rect(area.bottomleft, rect.size), ui)
 
     def handle(self, event: pygame.Event) -> bool:
         """Handle an event of the mouse within the panel; return whether a drag has begun.

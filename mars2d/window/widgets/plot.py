@@ -105,20 +105,16 @@ def polylines(
     kept = thinned(values, max(1, area.width // 2))
     first = 2 * times[0] - times[1] if len(times) > 1 else times[0]  # a row before
     after = 2 * times[-1] - times[-2] if len(times) > 1 else times[-1]
-    times, values = times[kept], values[kept]
-    finite = np.isfinite(values)
-    with np.errstate(invalid="ignore"):
-        leaps = np.abs(np.diff(values)) > pi if wraps else np.zeros(len(values) - 1, dtype=bool)
+    times, values = times[kept], np.where(np.isfinite(values), values, np.nan)[kept]
+    if wraps:
+        leaps = np.flatnonzero(np.abs(np.diff(values)) > pi) + 1
+        times, values = np.insert(times, leaps, times[leaps]), np.insert(values, leaps, np.nan)
     if held:
         edges = np.append(first, times) if held == "pre" else np.append(times, after)
         times, values = np.repeat(edges, 2)[1:-1], np.repeat(values, 2)
-        finite, leaps = np.repeat(finite, 2), np.repeat(np.append(leaps, [False]), 2)[:-1]
-        leaps[::2] = False
-    points = limits.pixels(area, times, np.where(np.isfinite(values), values, 0.0))
+    points = limits.pixels(area, times, values)
     points[:, 1] = np.clip(points[:, 1], area.top - 10 * area.height, area.bottom + area.height)
-    breaks = np.flatnonzero(~finite[1:] | ~finite[:-1] | leaps) + 1
-    parts = np.split(np.arange(len(points)), breaks)
-    return [points[part] for part in parts if finite[part[0]]]
+    return [points[part] for part in np.ma.clump_unmasked(np.ma.masked_invalid(values))]
 
 
 def draw_curve(

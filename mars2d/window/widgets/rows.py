@@ -118,6 +118,12 @@ def write_line(
     return free
 
 
+def width_of(painter: Painter, words: Sequence[Word]) -> float:
+    """Return the width of words on a line with the gaps behind them, pixels."""
+    width, ui = painter.fonts.width, painter.ui
+    return sum(width(word.text, word.size * ui, bold=word.bold) + GAP * ui for word in words)
+
+
 def columns(
     painter: Painter, lines: Sequence[Sequence[Sequence[Word]]], room: int
 ) -> tuple[Sequence[float], Callable[[Word], Word]]:
@@ -125,12 +131,8 @@ def columns(
 
     lines: of cells, as for `Panel.table`. room: the width, pixels.
     """
-    width, ui, count = painter.fonts.width, painter.ui, max(map(len, lines)) - 1
-    wide, first = [0.0] * count, 0.0
-    sizes = [
-        [sum(width(w.text, w.size * ui, bold=w.bold) + GAP * ui for w in cell) for cell in line]
-        for line in lines
-    ]
+    ui, count, first = painter.ui, max(map(len, lines)) - 1, 0.0
+    wide, sizes = [0.0] * count, [[width_of(painter, cell) for cell in line] for line in lines]
     for size in sizes:
         for k, each in enumerate(size[:0:-1], 1):  # by steps, since numbers change as they are read
             wide[-k] = max(wide[-k], ceil(each / (STEP * ui)) * STEP * ui)
@@ -144,6 +146,15 @@ def columns(
         return word if share == 1 else word._replace(size=floor(share * word.size * ui) / ui)
 
     return ends, sized
+
+
+def draw_rows(surface: pygame.Surface, rows: Sequence[Row], rect: pygame.Rect, ui: float) -> None:
+    """Draw rows one below the other, from the top of a rectangle on."""
+    place = rect.copy()
+    for row in rows:
+        place.height = round(row.height * ui)
+        row.draw(surface, place)
+        place.top = place.bottom
 
 
 def height_of(rows: Sequence[Row]) -> float:
