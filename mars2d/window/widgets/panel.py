@@ -43,7 +43,7 @@ class Panel:
     frames: whether the arena moves aside when it opens or changes its size. wanted: whether it is
     to be open, or with how many plots, which need room. remembered: whether the next window opens
     it again. least: the least height of rows and foot, points. lacks: why there is nothing to show,
-    or "". places: where named rows were drawn.
+    or "". sought: the name of a row that is brought into view. places: where named rows were drawn.
     """
 
     name = ""
@@ -52,7 +52,7 @@ class Panel:
     remembered = True
     wanted: int = False
     least = 72.0
-    lacks = ""
+    lacks = sought = ""
 
     def __init__(self, painter: Painter) -> None:
         """Start closed, at the top."""
@@ -109,8 +109,10 @@ class Panel:
         if self.scroll.cut:  # the bar takes some of the width
             rows = self.rows(frame, width - BAR)
             beside.width -= round(BAR * ui)
-        seen = self.scroll.seen([row.height * ui for row in rows], beside)
-        self.places = {rows[k].name: place for k, place in seen if rows[k].name}
+        names, self.sought, sought = [row.name for row in rows], "", self.sought
+        number = names.index(sought) if sought and sought in names else None
+        seen = self.scroll.seen([row.height * ui for row in rows], beside, number)
+        self.places = {names[k]: place for k, place in seen if names[k]}
         for k, place in seen:
             rows[k].draw(surface, place)
         self.scroll.draw_bar(surface, self.painter, area)

@@ -114,7 +114,9 @@ def polylines(
         times, values = np.repeat(edges, 2)[1:-1], np.repeat(values, 2)
     points = limits.pixels(area, times, values)
     points[:, 1] = np.clip(points[:, 1], area.top - 10 * area.height, area.bottom + area.height)
-    return [points[part] for part in np.ma.clump_unmasked(np.ma.masked_invalid(values))]
+    known = np.isfinite(values)
+    parts = np.split(np.arange(len(points)), np.flatnonzero(np.diff(known)) + 1)
+    return [points[part] for part in parts if known[part[0]]]
 
 
 def draw_curve(
