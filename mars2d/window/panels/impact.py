@@ -11,7 +11,7 @@ from mars2d.record.impacts import card
 from mars2d.window.panels.trace import with_present
 from mars2d.window.screen.player import Player
 from mars2d.window.widgets.panel import LINE, Panel
-from mars2d.window.widgets.rows import Row, Word, height_of, minus
+from mars2d.window.widgets.rows import Row, Word, minus
 
 SIZE, NAME = 12.5, 72.0
 """The height of the letters of a name, and its room, points."""
@@ -49,11 +49,6 @@ class Impact(Panel):
                 cells = [[Word(each, theme.ink, SIZE, bold=True)] for each in names]
             table.append([[Word(label, theme.muted)], *cells])
         return self.table(table)
-
-    def heights(self, frame: Frame, width: float) -> tuple[float, float]:
-        """Return the least and the wanted height; without a card it needs little."""
-        wanted = height_of(self.rows(frame, width))
-        return min(self.least, wanted), wanted
 
     def _cards(self, frame: Frame) -> list[Table]:
         """Return the tables of the touches that began in the control step before a frame."""
