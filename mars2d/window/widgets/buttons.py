@@ -47,15 +47,12 @@ class Buttons:
 
     def at(self, pixel: tuple[int, int]) -> str | None:
         """Return the name of the button at a pixel, if there is one."""
-        return next(
-            (name for name, place in self.places.items() if place.collidepoint(pixel)), None
-        )
+        return next((name for name, at in self.places.items() if at.collidepoint(pixel)), None)
 
     def handle(self, event: pygame.Event) -> bool:
         """Handle a press of the left mouse button on a button; return whether there was one."""
-        if event.type != pygame.MOUSEBUTTONDOWN or event.button != pygame.BUTTON_LEFT:
-            return False
-        name = self.at(event.pos)
+        pressed = event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT
+        name = self.at(event.pos) if pressed else None
         act = None if name is None else self._actions[name].act
         if act is not None:
             act()

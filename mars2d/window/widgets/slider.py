@@ -68,9 +68,8 @@ class Slider:
 
     def _place(self, rect: pygame.Rect, line: pygame.Rect, margin: int) -> None:
         """Set the line, and the area that is as high as `rect` and wider than the line."""
-        self._line = line
-        self._area = pygame.Rect(line.left - margin, rect.top, 0, rect.height)
-        self._area.width = line.width + 2 * margin if line.width else 0
+        wide = line.width + 2 * margin if line.width else 0
+        self._line, self._area = line, pygame.Rect(line.left - margin, rect.top, wide, rect.height)
 
     def _fill(self, surface: pygame.Surface, painter: Painter, end: float, color: str) -> None:
         """Draw the line from its left end to a pixel `end` from the left of the surface."""
@@ -142,8 +141,8 @@ class SpeedSlider(Slider):
         if inner.width <= 0:
             return
         hovered = held or (pointer is not None and self.hit(pointer))
-        real_time = self.rungs.index(1.0)
-        self.draw_value(surface, inner, painter, self.value_of(speed), real_time, held=hovered)
+        rung, real_time = self.value_of(speed), self.rungs.index(1.0)
+        self.draw_value(surface, inner, painter, rung, real_time, held=hovered)
         left, word = self._line.right + round(20 * ui), times(speed)
         fits = painter.fonts.width(word, 16 * ui, bold=True) <= rect.right - round(14 * ui) - left
         size, at = (16 if fits else 12), (left, rect.centery)
