@@ -43,7 +43,6 @@ from mars2d.window.panels.readout import (
     kind_of,
     state_of,
 )
-from mars2d.window.panels.sensorplot import rows_of
 from mars2d.window.screen.picking import Selection
 from tests.cases import each_case
 from tests.window.written import Written, painter
@@ -186,7 +185,7 @@ def test_every_sensor_has_a_plot(world):
     for row in (0, 3, 29):
         frame = world.record.frame(row)
         for sensor, reading in readings_of(frame, 0):
-            for part in rows_of(panel, frame, 0, sensor, reading):
+            for part in panel.reading(frame, 0, sensor, reading):
                 surface = pygame.Surface((300, round(part.height)), 0, 32)
                 before = pygame.surfarray.array3d(surface)
                 part.draw(surface, surface.get_rect())
@@ -199,7 +198,7 @@ def test_a_scan_is_seen_from_left_to_right():
     world = World(Scenario(robots=[robot], addons=[wall], workspace=None))
     world.observe()
     ((sensor, reading),) = readings_of(world.frame, 0)
-    (plot,) = rows_of(Inspector(Painter(), Selection(0)), world.frame, 0, sensor, reading)
+    (plot,) = Inspector(Painter(), Selection(0)).reading(world.frame, 0, sensor, reading)
     surface = pygame.Surface((300, round(plot.height)), 0, 32)
     plot.draw(surface, surface.get_rect())
     ink = rgba(LIGHT.shade(world.scenario.colors[0]))[:3]

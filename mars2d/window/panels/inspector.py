@@ -6,7 +6,10 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
+import numpy as np
+
 from mars2d.core.description import snake_case
+from mars2d.core.quantity import Quantity
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
 from mars2d.sensors.base import Sensor
@@ -15,22 +18,24 @@ from mars2d.window.panels.readout import (
     contacts_of,
     dynamics_of,
     force_of,
+    in_words,
     inbox,
     kind_of,
     rounded,
     state_of,
     touching,
 )
-from mars2d.window.panels.sensorplot import rows_of
 from mars2d.window.screen.picking import Selection
-from mars2d.window.widgets.panel import DOT, Panel
+from mars2d.window.widgets.panel import DOT, LINE, Panel
+from mars2d.window.widgets.plot import draw_bars, draw_colors
 from mars2d.window.widgets.rows import Row, Word
 
 GAP = 9.0
 """The gap between two sections, points."""
 TITLE = 21.0
 """The height of a section's title, points."""
-
+BARS, MAX_LINES = 40.0, 6
+"""The height of bars, points, and how many numbers are written; more are drawn as bars."""
 DRAW_INTERVAL = 1 / 15
 """The shortest time between two drawings while only numbers change, seconds."""
 
@@ -101,7 +106,7 @@ class Inspector(Panel):
         for sensor, reading in readings_of(frame, body):
             kind_of_it, key = snake_case(type(sensor).__name__), sensor.key
             yield from self._heading(key, "" if kind_of_it == key else kind_of_it)
-            yield from rows_of(self, frame, body, sensor, reading)
+            yield from self.reading(frame, body, sensor, reading)
         if body < len(frame.scenario.robots) and any(
             each.carries_messages for each in frame.scenario.addons
         ):
@@ -128,6 +133,31 @@ class Inspector(Panel):
         theme = self.painter.theme
         words = Word(title, theme.ink, bold=True), Word(more, theme.muted)
         return [self.rule(GAP), self.line(words, high=TITLE)]
+
+    def reading(self, frame: Frame, robot: int, sensor: Sensor, reading: Any) -> list[Row]:
+        """Return the reading of a sensor of a robot: numbers, colours, or bars.
+
+        Bars are those of now, from left to right as the robot sees where they are of beams.
+        """
+        now, painter, theme = np.asarray(reading), self.painter, self.painter.theme
+        quantities = sensor.quantities or (Quantity("value"),)
+        if quantities[0].kind == "color" and now.shape[-1:] == (3,):
+            strip = now.reshape(-1, 3)[::-1]
+            return [Row(LINE, lambda on, at: draw_colors(on, at, painter, strip))]
+        numbers = now.ravel().astype(float)
+        if len(numbers) > MAX_LINES:
+            beams = np.shape(getattr(sensor, "angles", ())) == now.shape
+            bars, color = numbers[::-1] if beams else numbers, frame.scenario.colors[robot]
+            return [Row(BARS, lambda on, at: draw_bars(on, at, painter, bars, color))]
+        named = len(quantities) == len(numbers)
+        each = [quantities[k if named else 0] for k in range(len(numbers))]
+        return [
+            self.line(
+                [Word(quantity.name if named else f"[{k}]", theme.text)],
+                [Word(in_words(value, quantity), theme.ink)],
+            )
+            for k, (value, quantity) in enumerate(zip(numbers.tolist(), each, strict=True))
+        ]
 
 
 def readings_of(frame: Frame, body: int) -> Iterator[tuple[Sensor, Any]]:

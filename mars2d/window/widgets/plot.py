@@ -1,4 +1,4 @@
-"""Plots over time in a window: axes, curves, and how numbers are written beside them."""
+"""Plots in a window: axes and curves over time, bars, colours, and how numbers are written."""
 
 from __future__ import annotations
 
@@ -154,6 +154,31 @@ def draw_quartiles(
     scene.polygon(np.vstack([edges[0], edges[1][::-1]]) * (1, -1), fill=faded(ink, 0.2))
     painter.paint(surface, scene.shapes, PIXELS, shaded=False)
     draw_curve(surface, painter, [limits.pixels(area, times[seen], median)], ink, 2.0)
+
+
+def draw_bars(
+    surface: pygame.Surface, rect: pygame.Rect, painter: Painter, values: Float, color: str
+) -> None:
+    """Draw numbers (n,) as bars side by side, in a colour of scenes; nan and inf as 0."""
+    values = np.where(np.isfinite(values), values, 0.0)
+    low, high = min(0.0, float(values.min())), max(0.0, float(values.max()))
+    tall = (rect.height - 4) / ((high - low) or 1.0)
+    zero, wide = rect.bottom - 2 + low * tall, rect.width / len(values)
+    for k, value in enumerate((tall * values).tolist()):
+        bar = rect.left + k * wide, zero - max(value, 0.0), max(1.0, wide - 1), abs(value)
+        surface.fill(painter.theme.shade(color), bar)
+    surface.fill(painter.theme.grid_axis, (rect.left, zero, rect.width, 1))
+
+
+def draw_colors(
+    surface: pygame.Surface, rect: pygame.Rect, painter: Painter, colors: Float
+) -> None:
+    """Draw colours (n, 3) side by side; nan is drawn empty."""
+    colors = np.where(np.isfinite(colors), colors, np.divide(rgba(painter.theme.track)[:3], 255))
+    pixels = np.rint(255 * np.clip(colors, 0, 1)).astype(np.uint8)
+    strip, area = pygame.surfarray.make_surface(pixels[:, None]), rect.inflate(0, -4)
+    surface.blit(pygame.transform.scale(strip, area.size), area)
+    pygame.draw.rect(surface, painter.theme.edge, area, 1)
 
 
 def as_number(value: float) -> str:
