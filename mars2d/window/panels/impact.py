@@ -26,7 +26,7 @@ class Impact(Panel):
     It opens with the keys that go from contact to contact.
     """
 
-    name, title, least, remembered = "impact", "Impact", 13 * LINE, False
+    name, title, least, remembered = "impact", "Impact", 5 * LINE, False
 
     def __init__(self, painter: Painter, player: Player) -> None:
         """Start with nothing read."""

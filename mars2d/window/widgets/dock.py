@@ -68,6 +68,7 @@ class Dock:
         self._mirrored = False
         self._held: Panel | None = None
         self._frame: Frame = None
+        self._sizes: dict[tuple[str, int], tuple[float, float]] = {}  # in this picture
 
     @property
     def opened(self) -> list[str]:
@@ -143,7 +144,7 @@ class Dock:
         It stays where it is when a panel opens that does not frame, such as for what is selected.
         bounds: of the arena, metres.
         """
-        self._plot, shown, self._frame = layout.plot, self._shown, frame
+        self._plot, shown, self._frame, self._sizes = layout.plot, self._shown, frame, {}
         names = [panel.name for panel in shown]
         new = [name for name in names if name not in self._recent]
         self._recent = [*reversed(new), *(name for name in self._recent if name in names)]
@@ -216,8 +217,10 @@ class Dock:
 
     def _heights(self, panel: Panel, lane: pygame.Rect) -> tuple[float, float]:
         """Return the least and the wanted height of a whole panel in a lane, pixels."""
-        ui = self.painter.ui
-        least, wanted = panel.heights(self._frame, lane.width / ui - 2 * PAD)
+        ui, of = self.painter.ui, (panel.name, lane.width)
+        if of not in self._sizes:
+            self._sizes[of] = panel.heights(self._frame, lane.width / ui - 2 * PAD)
+        least, wanted = self._sizes[of]
         return min((least + PAD + HEAD) * ui, lane.height), (wanted + PAD + HEAD) * ui
 
     def _plates(self) -> dict[str, pygame.Rect]:
@@ -297,7 +300,7 @@ class Dock:
         spot: a pixel that they should not cover, where they have no room beside the arena. free:
         where nothing may be covered; panels that would are left out. pointer: where the mouse is.
         """
-        self._frame = frame
+        self._frame, self._sizes = frame, {}
         away, plates = self._aside(spot), self._plates()
         self.plates, self.closes = {}, {}
         for panel in self._shown:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from functools import cache, partial
+from functools import cache, lru_cache, partial
 from typing import Any
 
 import pygame
 
+from mars2d.output.raster.fonts import Fonts
 from mars2d.output.raster.painter import Painter
 from mars2d.window.widgets.rows import (
     BAR,
@@ -167,6 +168,11 @@ class Panel:
 
     def wrapped(self, word: Word, width: float, most: int = 100) -> Iterator[Row]:
         """Yield the lines of a text; most: as many as they are at most."""
-        ui, (text, color, size, bold) = self.painter.ui, word
-        for each in self.painter.fonts.wrap(text, size * ui, width * ui, most) if text else ():
-            yield self.line([Word(each, color, size, bold)])
+        ui, fonts = self.painter.ui, self.painter.fonts
+        for each in _lines(fonts, word.text, word.size * ui, width * ui, most) if word.text else ():
+            yield self.line([word._replace(text=each)])
+
+
+@lru_cache(maxsize=256)
+def _lines(fonts: Fonts, text: str, size: float, room: float, most: int) -> list[str]:
+    return fonts.wrap(text, size, room, most)
