@@ -13,6 +13,8 @@ from mars2d.window.screen.player import Player
 from mars2d.window.widgets.panel import LINE, Panel
 from mars2d.window.widgets.rows import Row, Word, minus
 
+CARD = 12
+"""The lines of a card."""
 SIZE, NAME = 12.5, 72.0
 """The height of the letters of a name, and its room, points."""
 SILENT = "No touch began in this control step. N: on to the next contact, Shift N: back."
@@ -26,7 +28,7 @@ class Impact(Panel):
     It opens with the keys that go from contact to contact.
     """
 
-    name, title, least, remembered = "impact", "Impact", 5 * LINE, False
+    name, title, least, remembered = "impact", "Impact", 0.0, False
 
     def __init__(self, painter: Painter, player: Player) -> None:
         """Start with nothing read."""
@@ -49,6 +51,11 @@ class Impact(Panel):
                 cells = [[Word(each, theme.ink, SIZE, bold=True)] for each in names]
             table.append([[Word(label, theme.muted)], *cells])
         return self.table(table)
+
+    def heights(self, frame: Frame, width: float) -> tuple[float, float]:
+        """Return the least height, that of one card where there is one, and the wanted height."""
+        _, wanted = super().heights(frame, width)
+        return min(CARD * LINE, wanted), wanted
 
     def _cards(self, frame: Frame) -> list[Table]:
         """Return the tables of the touches that began in the control step before a frame."""

@@ -181,8 +181,8 @@ class ParameterPanel(Panel):
             between = f"{focused.low:g} to {focused.high:g} {focused.unit}".strip()
             return f"{focused.name}: {between}; {focused.default:.6g} in the file", "info"
         if self._selection.body is None:
-            return "select a robot or prop for its mass, friction and drive", "info"
-        return "drag a slider, or click it and type a number", "info"
+            return "select a robot or prop for its mass and more; Shift F2: to the sliders", "info"
+        return "drag a slider, or click it and type a number; Shift F2: to the sliders", "info"
 
     # -- the mouse ----------------------------------------------------------------------------
 
