@@ -165,7 +165,7 @@ def sliders_of(panel):
 
 def predictions_of(panel):
     """Return how many predictions are ok, and of how many; None where they are not shown."""
-    found = panel.reading.predictions
+    found = panel.found
     return [sum(bool(each.ok) for each in found), len(found)] if panel.is_open else None
 
 

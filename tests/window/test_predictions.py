@@ -99,7 +99,7 @@ def test_checks_that_never_return_are_broken_off_and_the_run_goes_on(tmp_path):
     desk.run(5)
     with Deadline(0.3, calls=lambda: desk.timeline.world.simulation.calls):
         desk.look()
-    assert "did not return within 0.3 s" in str(desk.panel.reading.error)
+    assert "did not return within 0.3 s" in str(desk.panel.error)
     desk.run(5)
     assert desk.timeline.row == 10
 
