@@ -224,16 +224,15 @@ class Menu:
 
         Return whether there is one.
         """
-        if not letter.isprintable() or not letter:
-            return False
-        order = [*range(self._chosen, len(entries)), *range(max(self._chosen, 0))]
-        longer = self._typed + letter
-        for typed, numbers in ((longer, order), (letter, [*order[1:], *order[:1]])):
-            found = (k for k in numbers if k >= 0 and entries[k].act is not None
-                     and entries[k].title.lower().startswith(typed))  # fmt: skip
-            k = next(found, None)
-            if k is not None:
-                self._chosen, self._typed, self._sought = k, typed, True
+        typed = self._typed + letter if letter.isprintable() and letter else ""
+        for start, begin in ((self._chosen, typed), (self._chosen + 1, typed[-1:])):
+            found = [
+                k for k, entry in enumerate(entries)
+                if begin and entry.act is not None and entry.title.lower().startswith(begin)
+            ]  # fmt: skip
+            if found:
+                self._chosen = min(found, key=lambda k: (k < start, k))
+                self._typed, self._sought = begin, True
                 return True
         return False
 
