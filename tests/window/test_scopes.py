@@ -125,6 +125,19 @@ def test_the_cursor_has_the_values_of_the_row_that_is_shown(timeline):
             assert f"{name} {as_number(x)}" in texts
 
 
+@each_case("height", [290, 400])
+def test_each_number_has_the_name_of_its_curve(height):
+    scoped = Scoped(Timeline(open_experiment("crowd")), (316, height))
+    for what in ("speed", "energy", "momentum"):
+        scoped.scopes.switch(what, (0,) if what == "speed" else ())
+    for _ in range(60):
+        scoped.timeline.advance()
+    surface = scoped.draw()
+    assert not surface.crowded()
+    for name in ("kinetic, of all", "drives", "impacts", "friction"):
+        assert any(text.startswith(f"{name} ") for text in surface.texts), name
+
+
 def test_what_is_switched_on_for_one_body_joins_the_plot_of_another(timeline):
     scopes = Scoped(timeline).scopes
     scopes.switch("speed", (0,))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from math import ceil
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -44,8 +45,8 @@ TITLE, LEFT, FOOT, GAP = 19.0, 52.0, 17.0, 7.0
 the next plot, points."""
 LEAST, WANTED = 56.0, 124.0
 """The least and the wanted height of a plot with its title, points."""
-HIGH = 86.0
-"""The height from which on a plot has a line for the names of its curves, points."""
+HIGH = 56.0
+"""The height that a plot has at least beside lines for the names of its curves, points."""
 LINE = 16.0
 """The height of a line of text, points."""
 NAMED = 6
@@ -63,8 +64,8 @@ ZOOM, SHORTEST = 1.25, 10
 class _Plot(NamedTuple):
     """A plot that was drawn: where its curves lie in the panel, and what the axes mean there.
 
-    colors, names: of the curves. single: those that are drawn each. below: whether the names have a
-    line of their own below the title.
+    colors, names: of the curves. single: those that are drawn each. below: how many lines the
+    names have below the title.
     """
 
     signal: Signal
@@ -73,7 +74,7 @@ class _Plot(NamedTuple):
     colors: Sequence[str]
     names: Sequence[str]
     single: Sequence[int]
-    below: bool
+    below: int
 
 
 class Scopes(Panel):
@@ -267,11 +268,14 @@ class Scopes(Panel):
         single: Sequence[int] = range(count)
         if count > CROWD:  # of many only those of the chosen body
             single = [k for k, body in enumerate(bodies) if body == self._selection.body]
-        below = 1 < count <= NAMED and place.height >= HIGH * ui
+        if not bodies:  # in few words: the title says that it is energy
+            names = [name.removeprefix("work of ") * (count > 1) for name in signal.curves]
+        wide = width_of(self.painter, [Word(f"{name} {as_number(1.0)}", "", 12) for name in names])
+        below = ceil(wide / (place.width - LEFT * ui)) if 1 < count <= NAMED else 0
+        below = below if place.height >= (HIGH + LINE * below) * ui else 0
         top, left = place.top + round((TITLE + LINE * below) * ui), place.left + round(LEFT * ui)
         area = pygame.Rect(left, top, place.right - left - 2, place.bottom - round(GAP * ui) - top)
         shades = [self.painter.theme.shade(color) for color in colors]
-        names = names if bodies else [*signal.curves] if count > 1 else [""]
         return _Plot(signal, area, limits, shades, names, single, below)
 
     def _draw_cursor(self, surface: pygame.Surface, plot: _Plot, frame: Frame) -> None:
@@ -285,7 +289,7 @@ class Scopes(Panel):
             surface.fill(theme.selected, (round(x), area.top, max(1, round(ui)), area.height))
         high, unit = round(LINE * ui), f" [{signal.unit}]" if signal.unit else ""
         line = pygame.Rect(self._place.left, 0, self._place.width, high)
-        line.centery = area.top - round((TITLE / 2 + (LINE if plot.below else 0)) * ui)
+        line.centery = area.top - round((TITLE / 2 + LINE * plot.below) * ui)
         title = Word(f"{signal.name}{unit}", theme.ink, 12, bold=True)
         free = write_line(surface, line, self.painter, [title])
         if plot.below:
@@ -303,10 +307,13 @@ class Scopes(Panel):
             own = [Word(both[k], plot.colors[k], 12) for k in plot.single] if count > CROWD else []
             write_line(surface, rect, self.painter, [Word(text, self.painter.theme.muted, 12)], own)
             return
-        for texts, size in ((both, 12), (both, 9), (numbers, 12)):
-            words = [Word(*each, size) for each in zip(texts, plot.colors, strict=True)]
-            if width_of(self.painter, words) <= rect.width:
-                write_line(surface, rect, self.painter, right=words)
+        each = ceil(count / max(plot.below, 1))
+        for texts in (both, numbers):
+            words = [Word(*word, 12) for word in zip(texts, plot.colors, strict=True)]
+            lines = [words[k : k + each] for k in range(0, count, each)]
+            if max(width_of(self.painter, line) for line in lines) <= rect.width:
+                for k, line in enumerate(lines):
+                    write_line(surface, rect.move(0, k * rect.height), self.painter, right=line)
                 return
 
     # -- the mouse ----------------------------------------------------------------------------
