@@ -307,11 +307,11 @@ class Scopes(Panel):
             own = [Word(both[k], plot.colors[k], 12) for k in plot.single] if count > CROWD else []
             write_line(surface, rect, self.painter, [Word(text, self.painter.theme.muted, 12)], own)
             return
-        each = ceil(count / max(plot.below, 1))
+        each = max(1, ceil(count / max(plot.below, 1)))
         for texts in (both, numbers):
             words = [Word(*word, 12) for word in zip(texts, plot.colors, strict=True)]
             lines = [words[k : k + each] for k in range(0, count, each)]
-            if max(width_of(self.painter, line) for line in lines) <= rect.width:
+            if all(width_of(self.painter, line) <= rect.width for line in lines):
                 for k, line in enumerate(lines):
                     write_line(surface, rect.move(0, k * rect.height), self.painter, right=line)
                 return
