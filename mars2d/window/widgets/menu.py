@@ -87,6 +87,7 @@ class Menu:
         self._scroll = Scroll()
         self._sought = False  # whether the chosen entry is to be brought into view
         self._stays = self._asks = self._pointed = False
+        self._most = 0.0  # the most room before a title
 
     @property
     def is_open(self) -> bool:
@@ -241,9 +242,10 @@ class Menu:
     def size(self, painter: Painter) -> tuple[int, int]:
         """Return its width and height where there is room for all, pixels."""
         entries, ui, width = self._listed(), painter.ui, painter.fonts.width
+        self._most = max(each.before for each in entries)
         field = round(FIELD * ui) * any(each.field is not None for each in entries)
         titles = [
-            round(each.before * ui)
+            round(self._before(each) * ui)
             + max(width(each.title, SIZE * ui, bold=each.act is None), width(each.more, SMALL * ui))
             for each in entries
         ]
@@ -252,6 +254,10 @@ class Menu:
         high = sum(round(each.height * ui) for each in entries)
         pad = round(PAD * ui)
         return max(titles) + max(ends, field) + 4 * pad, high + 2 * pad
+
+    def _before(self, entry: Entry) -> float:
+        """Return the room before a title, points: the same for all entries of a menu that opens."""
+        return entry.before if self._docked or entry.act is None else self._most
 
     def draw(self, surface: pygame.Surface, bounds: pygame.Rect, painter: Painter) -> None:
         """Draw it within bounds, if it is open; where there is no room for all, a part of it."""
@@ -296,7 +302,7 @@ class Menu:
         self, surface: pygame.Surface, painter: Painter, entry: Entry, place: pygame.Rect
     ) -> None:
         theme, ui, side = painter.theme, painter.ui, round(BOX * painter.ui)
-        middle, left = place.top + round(ROW / 2 * ui), place.left + round(entry.before * ui)
+        middle, left = place.top + round(ROW / 2 * ui), place.left + round(self._before(entry) * ui)
         box = pygame.Rect(place.left, middle - side // 2, side, side)
         if entry.on is not None:
             fill, edge = (theme.selected,) * 2 if entry.on else (theme.plate, theme.muted)
