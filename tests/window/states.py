@@ -99,7 +99,6 @@ def of_run(window):
     bar, slider = window._controls.time_bar, window._controls.slider
     banner = window._ending.banner()
     scopes, plots = window.dock.scopes, window.dock.scopes._plots
-    corner = scopes._place.topleft
     return {
         "time": round(frame.time, 3),
         "row": source.row,
@@ -140,7 +139,7 @@ def of_run(window):
         "scopes": {
             getattr(what, "__name__", what): [*bodies] for what, bodies in scopes.traces.items()
         },
-        "areas": {each.signal.name: [*each.area.move(corner)] for each in plots},
+        "areas": {each.signal.name: [*scopes._on_surface(each).area] for each in plots},
         "panels": {name: [*plate] for name, plate in window.dock.plates.items()},
         "plot": [*window.layout.plot],
         "sliders": sliders_of(window.dock.parameters) if window.dock.parameters.is_open else {},

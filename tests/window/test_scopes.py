@@ -21,7 +21,7 @@ from mars2d.sensors import Imu, RangeFinder
 from mars2d.window.panels.scopes import Scopes
 from mars2d.window.panels.trace import read
 from mars2d.window.screen.picking import Selection
-from mars2d.window.widgets.plot import Limits, as_number, draw_quartiles
+from mars2d.window.widgets.plot import Axes, as_number
 from mars2d.world.timeline import Timeline
 from tests.cases import each_case
 from tests.window.person import PUSHING
@@ -164,11 +164,11 @@ def test_the_wheel_shows_less_time_and_more_until_it_is_all(timeline):
     scoped.scopes.handle(turn)
     assert scoped.scopes.span == pytest.approx(19 / 1.25**4)
     scoped.draw()
-    limits = scoped.scopes._plots[0].limits
+    limits = scoped.scopes._plots[0].axes
     assert limits.start < timeline.frame.time <= limits.end
     timeline.go(10)
     scoped.draw()
-    limits = scoped.scopes._plots[0].limits
+    limits = scoped.scopes._plots[0].axes
     assert limits.start <= timeline.frame.time < limits.end
     scoped.scopes.handle(pygame.Event(pygame.MOUSEWHEEL, y=-9, precise_y=-9.0))
     assert scoped.scopes.span is None
@@ -211,7 +211,7 @@ def test_of_many_curves_the_median_and_the_middle_half_are_drawn():
     surface.fill("white")
     area, times = surface.get_rect(), np.linspace(0, 1, 300)
     values = np.tile(np.arange(21.0), (300, 1))  # each stays at its number
-    draw_quartiles(surface, area, Painter(), Limits(0, 1, 0, 20), times, values)
+    Axes(area, 0, 1, 0, 20).draw_quartiles(surface, Painter(), times, values)
     column = pygame.surfarray.array3d(surface)[100].sum(axis=1)
     painted = np.flatnonzero(column < 765)
     assert (painted.min(), painted.max()) == pytest.approx((50, 150), abs=1)  # 15 and 5 of 20

@@ -26,15 +26,7 @@ from mars2d.window.screen.player import Player
 from mars2d.window.screen.saving import Saver
 from mars2d.window.screen.viewpoint import wheel_notches
 from mars2d.window.widgets.panel import Panel
-from mars2d.window.widgets.plot import (
-    Limits,
-    as_number,
-    draw_axes,
-    draw_curve,
-    draw_quartiles,
-    limits_of,
-    polylines,
-)
+from mars2d.window.widgets.plot import Axes, as_number, draw_curve
 from mars2d.window.widgets.rows import Word, draw_rows, height_of, width_of, write_line
 from mars2d.world.timeline import Timeline
 
@@ -62,15 +54,14 @@ ZOOM, SHORTEST = 1.25, 10
 
 
 class _Plot(NamedTuple):
-    """A plot that was drawn: where its curves lie in the panel, and what the axes mean there.
+    """A plot that was drawn.
 
-    colors, names: of the curves. single: those that are drawn each. below: how many lines the
-    names have below the title.
+    axes: in the panel's own image. colors, names: of the curves. single: those that are drawn each.
+    below: how many lines the names have below the title.
     """
 
     signal: Signal
-    area: pygame.Rect
-    limits: Limits
+    axes: Axes
     colors: Sequence[str]
     names: Sequence[str]
     single: Sequence[int]
@@ -108,7 +99,7 @@ class Scopes(Panel):
         self._of: tuple[object, ...] = ()
         self._frame: Frame | None = None
         self._next = 0.0  # when it is drawn again while time passes
-        self._held: _Plot | None = None
+        self._held: Axes | None = None
         robots = tuple(range(len(player.frame.scenario.robots)))
         for what in self._named:
             self.switch(what, robots if isinstance(what, str) else ())
@@ -231,15 +222,13 @@ class Scopes(Panel):
         self._plots, before = [], surface.get_clip()
         for signal in found:
             values, times = signal.values, dt * np.arange(len(signal.values), dtype=float)
-            limits = limits_of(start, end, values[int(start / dt) : int(end / dt) + 2])
-            plot = self._plot(place, signal, frame.scenario, limits)
-            draw_axes(surface, plot.area, self.painter, limits, times=signal is found[-1])
-            surface.set_clip(plot.area.inflate(2, 4).clip(before))
+            plot = self._plot(place, signal, frame.scenario, start, end)
+            plot.axes.draw(surface, self.painter, times=signal is found[-1])
+            surface.set_clip(plot.axes.area.inflate(2, 4).clip(before))
             if len(plot.colors) > CROWD:
-                draw_quartiles(surface, plot.area, self.painter, limits, times, values)
-            held, wraps = signal.held, signal.wraps
+                plot.axes.draw_quartiles(surface, self.painter, times, values)
             for k in plot.single:
-                lines = polylines(plot.area, limits, times, values[:, k], held=held, wraps=wraps)
+                lines = plot.axes.lines(times, values[:, k], held=signal.held, wraps=signal.wraps)
                 draw_curve(surface, self.painter, lines, plot.colors[k], WIDTH)
             surface.set_clip(before)
             self._plots.append(plot)
@@ -254,7 +243,7 @@ class Scopes(Panel):
         return start, start + self.span
 
     def _plot(
-        self, place: pygame.Rect, signal: Signal, scenario: Scenario, limits: Limits
+        self, place: pygame.Rect, signal: Signal, scenario: Scenario, start: float, end: float
     ) -> _Plot:
         """Return a plot in a place; the colour of a curve is its body's, if it tells them apart."""
         ui, count = self.painter.ui, signal.values.shape[1]
@@ -276,24 +265,26 @@ class Scopes(Panel):
         top, left = place.top + round((TITLE + LINE * below) * ui), place.left + round(LEFT * ui)
         area = pygame.Rect(left, top, place.right - left - 2, place.bottom - round(GAP * ui) - top)
         shades = [self.painter.theme.shade(color) for color in colors]
-        return _Plot(signal, area, limits, shades, names, single, below)
+        dt = scenario.sampling_time
+        axes = Axes.round(area, start, end, signal.values[int(start / dt) : int(end / dt) + 2])
+        return _Plot(signal, axes, shades, names, single, below)
 
     def _draw_cursor(self, surface: pygame.Surface, plot: _Plot, frame: Frame) -> None:
         """Draw where the time shown lies in a plot, and write the values there."""
         ui, theme = self.painter.ui, self.painter.theme
-        area, signal = plot.area.move(self._place.topleft), plot.signal
+        axes, signal = self._on_surface(plot), plot.signal
         row = min(frame.iteration, len(signal.values) - 1)
         values = signal.values[row] if row >= 0 else np.full(len(plot.colors), np.nan)
-        if plot.limits.start <= frame.time <= plot.limits.end:
-            ((x, _),) = plot.limits.pixels(area, np.array([frame.time]), np.zeros(1)).tolist()
-            surface.fill(theme.selected, (round(x), area.top, max(1, round(ui)), area.height))
+        if axes.start <= frame.time <= axes.end:
+            x = round(axes.x_of(frame.time))
+            surface.fill(theme.selected, (x, axes.area.top, max(1, round(ui)), axes.area.height))
         high, unit = round(LINE * ui), f" [{signal.unit}]" if signal.unit else ""
         line = pygame.Rect(self._place.left, 0, self._place.width, high)
-        line.centery = area.top - round((TITLE / 2 + LINE * plot.below) * ui)
+        line.centery = axes.area.top - round((TITLE / 2 + LINE * plot.below) * ui)
         title = Word(f"{signal.name}{unit}", theme.ink, 12, bold=True)
         free = write_line(surface, line, self.painter, [title])
         if plot.below:
-            free = pygame.Rect(area.left, line.bottom, line.right - area.left, high)
+            free = pygame.Rect(axes.area.left, line.bottom, line.right - axes.area.left, high)
         self._write_values(surface, plot, values, free)
 
     def _write_values(
@@ -316,6 +307,9 @@ class Scopes(Panel):
                     write_line(surface, rect.move(0, k * rect.height), self.painter, right=line)
                 return
 
+    def _on_surface(self, plot: _Plot) -> Axes:
+        return plot.axes._replace(area=plot.axes.area.move(self._place.topleft))
+
     # -- the mouse ----------------------------------------------------------------------------
 
     def handle(self, event: pygame.Event) -> bool:
@@ -326,20 +320,18 @@ class Scopes(Panel):
         if event.type == pygame.MOUSEBUTTONUP:
             self._held = None
         elif event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
-            at = np.subtract(event.pos, self._place.topleft).tolist()
-            self._held = next((plot for plot in self._plots if plot.area.collidepoint(at)), None)
-        if self._held is not None and self._frame is not None:
-            limits, area = self._held.limits, self._held.area.move(self._place.topleft)
-            share = (event.pos[0] - area.left) / area.width
-            when = limits.start + share * (limits.end - limits.start)
-            self._player.go(max(0, round(when / self._frame.scenario.sampling_time)))
+            axes = map(self._on_surface, self._plots)
+            self._held = next((each for each in axes if each.area.collidepoint(event.pos)), None)
+        if self._held is not None:
+            dt = self._player.frame.scenario.sampling_time
+            self._player.go(max(0, round(self._held.time_at(event.pos[0]) / dt)))
         return self._held is not None
 
     def zoom(self, notches: float) -> None:
         """Show less time by notches of the wheel, or more, until it is all."""
         if not self._plots or self._frame is None:
             return
-        dt, limits = self._frame.scenario.sampling_time, self._plots[0].limits
+        dt, axes = self._frame.scenario.sampling_time, self._plots[0].axes
         whole = max(len(self._plots[0].signal.values) * dt, span_of(dt))
-        span = (limits.end - limits.start) * ZOOM**-notches
+        span = (axes.end - axes.start) * ZOOM**-notches
         self.span = None if span >= whole else max(span, SHORTEST * dt)
