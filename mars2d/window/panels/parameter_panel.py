@@ -21,12 +21,11 @@ from mars2d.window.screen.player import Player
 from mars2d.window.screen.source import RECORDING
 from mars2d.window.widgets.buttons import draw_icon
 from mars2d.window.widgets.panel import LINE, Panel
-from mars2d.window.widgets.rows import Row, Word, write_line
+from mars2d.window.widgets.rows import Pixel, Row, Word, write_line
 from mars2d.window.widgets.slider import Slider
 from mars2d.window.widgets.text_field import TextField
 from mars2d.world.timeline import Timeline
 
-Pixel = tuple[int, int]
 Line = tuple[str, Parameter | None]
 """A heading, or a name in words and its parameter."""
 Say = Literal["info", "error"]

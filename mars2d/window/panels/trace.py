@@ -60,8 +60,7 @@ def with_present(record: Record, frame: Frame) -> Record:
         "effort": frame.effort, "velocity": velocity[:, :n], "prop_velocity": velocity[:, n:],
         "work": frame.work,
     }  # fmt: skip
-    columns: dict[str, Any] = {name: getattr(record, name) for name in COLUMNS}
-    columns = {name: _longer(values, known.get(name)) for name, values in columns.items()}
+    columns: Any = {each: _longer(getattr(record, each), known.get(each)) for each in COLUMNS}
     sensors = {}
     for name, values in record.sensors.items():
         sensors[name], read = _longer(values), dict(frame.readings.get(name, ()))

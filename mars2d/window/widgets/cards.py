@@ -10,7 +10,7 @@ from pathlib import Path
 import pygame
 
 from mars2d.output.raster.painter import Painter
-from mars2d.window.widgets.rows import Scroll, Word, write_line
+from mars2d.window.widgets.rows import Pixel, Scroll, Word, write_line
 
 WIDTH, GAP, MARGIN = 212.0, 18.0, 30.0
 """The least width of a card, the gap between two, and the margin of the page, points."""
@@ -128,7 +128,7 @@ class Page:
         above = 0 if place.top < 2 * place.height else place.top - place.height // 2
         self._scroll.bring(above, place.bottom + 20)
 
-    def at(self, pixel: tuple[int, int]) -> int | None:
+    def at(self, pixel: Pixel) -> int | None:
         """Return the number of the card at a pixel of the surface, if there is one."""
         inside = self._area.collidepoint(pixel)
         places = enumerate(self._seen(place) for _, place in self.places if inside)

@@ -13,9 +13,7 @@ from mars2d.output.raster.layout import Bounds, Layout, fitted
 from mars2d.output.raster.painter import Painter
 from mars2d.window.widgets.buttons import draw_icon
 from mars2d.window.widgets.panel import Frame, Panel
-from mars2d.window.widgets.rows import write_line
-
-Pixel = tuple[int, int]
+from mars2d.window.widgets.rows import Pixel, write_line
 
 WIDTH, MIN_WIDTH = 344.0, 210.0
 """The width of a column, and the least width if the picture has it, points."""

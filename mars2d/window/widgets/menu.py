@@ -10,7 +10,7 @@ import pygame
 from mars2d.output.raster.painter import Painter
 from mars2d.window.widgets.actions import CONTROL, MODIFIERS, label_of
 from mars2d.window.widgets.help import draw_veil
-from mars2d.window.widgets.rows import Scroll, Word, write_line
+from mars2d.window.widgets.rows import Pixel, Scroll, Word, write_line
 from mars2d.window.widgets.text_field import TextField
 
 ROW, MORE, PAD, BOX = 30.0, 18.0, 8.0, 15.0
@@ -115,7 +115,7 @@ class Menu:
         self,
         name: str,
         entries: Callable[[], Sequence[Entry]],
-        corner: tuple[int, int],
+        corner: Pixel,
         *,
         stays: bool = False,
         asks: bool = False,
@@ -172,7 +172,7 @@ class Menu:
             self._choose(entry)
         return True
 
-    def _under(self, pixel: tuple[int, int]) -> list[tuple[int, Entry]]:
+    def _under(self, pixel: Pixel) -> list[tuple[int, Entry]]:
         """Return the entry at a pixel that can be chosen, with its number, if there is one."""
         return [(k, entry) for k, entry, place in self._places
                 if entry.act and place.collidepoint(pixel)]  # fmt: skip

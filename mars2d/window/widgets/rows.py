@@ -12,6 +12,8 @@ import pygame
 
 from mars2d.output.raster.painter import Painter
 
+Pixel = tuple[int, int]
+
 GAP = 8.0
 """The gap between two words, points."""
 STEP = 8.0

@@ -11,6 +11,7 @@ import pygame
 from mars2d.core.scene import Scene
 from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.painter import Painter
+from mars2d.window.widgets.rows import Pixel
 
 LINE = 4.0
 """The height of the line of a slider, points."""
@@ -29,7 +30,7 @@ class Slider:
         self._line = pygame.Rect(0, 0, 0, 0)
         self._area = pygame.Rect(0, 0, 0, 0)
 
-    def hit(self, pixel: tuple[int, int]) -> bool:
+    def hit(self, pixel: Pixel) -> bool:
         """Return whether a press at a pixel moves the handle."""
         return bool(self._area.collidepoint(pixel))
 
@@ -124,7 +125,7 @@ class SpeedSlider(Slider):
         painter: Painter,
         speed: float,
         *,
-        pointer: tuple[int, int] | None = None,
+        pointer: Pixel | None = None,
         held: bool = False,
         costs: str = "",
     ) -> None:

@@ -160,8 +160,6 @@ class TextField:
 
 def copied(text: str) -> bool:
     """Copy text to the clipboard; return whether that worked."""
-    if not pygame.display.get_init() or pygame.display.get_surface() is None:
-        return False
     try:
         pygame.scrap.put_text(text)
     except pygame.error:
