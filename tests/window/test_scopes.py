@@ -216,3 +216,15 @@ def test_of_many_curves_the_median_and_the_middle_half_are_drawn():
     painted = np.flatnonzero(column < 765)
     assert (painted.min(), painted.max()) == pytest.approx((50, 150), abs=1)  # 15 and 5 of 20
     assert column.argmin() == pytest.approx(100, abs=1)  # 10 of 20
+
+
+def test_curves_have_gaps_where_nothing_is_known_steps_and_leaps_of_angles():
+    axes, times = Axes(pygame.Rect(0, 0, 40, 10), 0.0, 4.0, -5.0, 5.0), np.arange(5.0)
+    gap = axes.lines(times, np.array([0.0, 1.0, np.nan, 2.0, np.inf]))
+    assert [part.tolist() for part in gap] == [[[0, 5], [10, 4]], [[30, 3]]]
+    leap = axes.lines(times, np.array([2.0, 3.0, -3.0, -2.0, -1.0]), wraps=True)
+    assert [len(part) for part in leap] == [2, 3]
+    post, pre = (axes.lines(times, times, held=held)[0] for held in ("post", "pre"))
+    assert post[:4].tolist() == [[0, 5], [10, 5], [10, 4], [20, 4]]
+    assert pre[:4].tolist() == [[-10, 5], [0, 5], [0, 4], [10, 4]]
+    assert axes.time_at(axes.x_of(2.5)) == 2.5

@@ -259,8 +259,9 @@ class Scopes(Panel):
             single = [k for k, body in enumerate(bodies) if body == self._selection.body]
         if not bodies:  # in few words: the title says that it is energy
             names = [name.removeprefix("work of ") * (count > 1) for name in signal.curves]
-        wide = width_of(self.painter, [Word(f"{name} {as_number(1.0)}", "", 12) for name in names])
-        below = ceil(wide / (place.width - LEFT * ui)) if 1 < count <= NAMED else 0
+        named = names if 1 < count <= NAMED else []
+        wide = width_of(self.painter, [Word(f"{name} {as_number(1.0)}", "", 12) for name in named])
+        below = ceil(wide / (place.width - LEFT * ui))
         below = below if place.height >= (HIGH + LINE * below) * ui else 0
         top, left = place.top + round((TITLE + LINE * below) * ui), place.left + round(LEFT * ui)
         area = pygame.Rect(left, top, place.right - left - 2, place.bottom - round(GAP * ui) - top)
