@@ -134,19 +134,18 @@ def test_however_small_the_picture_a_panel_that_is_opened_is_seen(size, text):
     assert seen.click(seen.dock.closes["panel0"].center)
 
 
-def test_the_lines_of_a_table_have_one_size_and_never_overlap():
-    panel, color = Panel(painter(Layout.of((640, 400)), LIGHT)), LIGHT.ink
-    for width in (150, 232, 316, 900):
-        surface = Written((width, 100))
-        lines = [("", "a long name", "b", "both"), ("before, along [m/s]", "1", "2", "3 nearer"),
-                 ("momentum before [N s]", "", "", "(1.23, 4.56)")]  # fmt: skip
-        cells = [[[Word(each, color)] * bool(each) for each in line] for line in lines]
-        for k, row in enumerate(panel.table(cells)):
-            row.draw(surface, pygame.Rect(0, 20 * k, width, 20))
-        assert not surface.crowded(), width
-        assert not surface.cut(), width
-        assert len({place.height for _, place in surface.words}) == 1
-        assert len({surface.place(word).right for word in ("3 nearer", "(1.23, 4.56)")}) == 1
+@each_case("width", [150, 232, 900])
+def test_the_lines_of_a_table_have_one_size_and_never_overlap(width):
+    panel, surface = Panel(painter(Layout.of((640, 400)), LIGHT)), Written((width, 100))
+    lines = ["", "a long name", "b", "both"], ["before, along [m/s]", "1", "2", "3 nearer"]
+    lines = [*lines, ["momentum before [N s]", "", "", "(1.23, 4.56)"]]
+    cells = [[[Word(each, LIGHT.ink)] * bool(each) for each in line] for line in lines]
+    for k, row in enumerate(panel.table(cells)):
+        row.draw(surface, pygame.Rect(0, 20 * k, width, 20))
+    assert not surface.crowded()
+    assert not surface.cut()
+    assert len({place.height for _, place in surface.words}) == 1
+    assert surface.place("3 nearer").right == surface.place("(1.23, 4.56)").right
 
 
 def test_a_panel_of_what_is_selected_leaves_the_arena_where_it_is_until_it_is_fitted():
