@@ -156,7 +156,6 @@ def sliders_of(panel):
         "values": {name: each.value for name, each in panel.parameters().items()},
         "places": {name: [*lines[name]] for name in panel.places},
         "resets": {name: place.center for name, place in panel.resets.items()},
-        "focus": panel.focus,
         "typed": panel.typed.text,
         "said": panel._words()[0],
     }

@@ -28,8 +28,7 @@ def test_the_keys_of_contacts_open_the_card_of_what_the_touch_did(live):
         window.player.pass_time(0.1)
     assert window.dock.impact.is_open
     window.draw(surface)
-    whole = 12 * LINE * window.layout.ui
-    assert window.dock.plates["impact"].height >= whole
+    assert window.dock.plates["impact"].height >= 12 * LINE * window.layout.ui
     (rows,) = window.dock.impact._cards(window.player.frame)
     table = {label: numbers for label, *numbers in rows}
     assert table[""] == ["a", "b", "both"]
