@@ -6,7 +6,6 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-import numpy as np
 import pygame
 
 from mars2d.core.errors import counted
@@ -34,7 +33,7 @@ from mars2d.window.run.toolbar import Toolbar
 from mars2d.window.screen.display import Preferences
 from mars2d.window.screen.source import Trio
 from mars2d.window.screen.viewpoint import Viewpoint
-from mars2d.window.widgets.plot import Limits, draw_axes, polylines
+from mars2d.window.widgets.plot import Axes
 from mars2d.window.widgets.slider import Slider
 
 LEFT, RIGHT, HEAD, FOOT = 72.0, 24.0, 34.0, 26.0
@@ -82,11 +81,11 @@ class DriftPlot(Slider):
         surface.fill(theme.edge, (rect.left, rect.top, rect.width, 1))
         farthest = max(float(drift.max.max(initial=0.0)) for drift in drifts.values())
         agree, self.high = farthest < NO_DRIFT, max(end, MIN_TIME)
-        limits = Limits(0.0, self.high, 0.0, 1.0 if agree else 1.06 * farthest)
+        high = 1.0 if agree else 1.06 * farthest
         words, above = dict[tuple[str, str], str](), drifts[next(iter(drifts))]
         for mode, drift in drifts.items():
             for name, *_ in CURVES:
-                hidden = drift is not above and _alike(drift, above, name, HIDDEN * limits.high)
+                hidden = drift is not above and _alike(drift, above, name, HIDDEN * high)
                 words[mode, name] = f"{mode}, {name}{': the same' * hidden}"
         need = sum(fonts.width(word, SIZE) + SIGN for word in words.values())
         wide = rect.width - round((LEFT + RIGHT) * ui)
@@ -96,19 +95,20 @@ class DriftPlot(Slider):
         self._line = self._area = area
         if area.width <= 0 or area.height <= 0:
             return
-        draw_axes(surface, area, painter, limits, "m")
+        axes = Axes(area, 0.0, self.high, 0.0, high)
+        axes.draw(surface, painter, "m")
         right, middle = area.right, (rect.top + area.top) // 2
         for mode, drift in reversed(list(drifts.items())):
             for name, dash, width in reversed(CURVES):
                 look = {"stroke": COLORS[mode], "width": width, "style": dash}
-                for points in polylines(area, limits, drift.time, getattr(drift, name)):
+                for points in axes.lines(drift.time, getattr(drift, name)):
                     scene.line(points * (1, -1), **look)
                 at, size = (right, middle), SIZE * large
                 place = painter.write(surface, words[mode, name], size, theme.text, midright=at)
                 left = place.left - round(30 * large)
                 scene.line([(left, -middle), (left + 24 * large, -middle)], **look)
                 right = left - round(14 * large)
-        x = float(limits.pixels(area, np.array([now]), np.zeros(1))[0, 0])
+        x = axes.x_of(now)
         scene.line([(x, -area.top), (x, -area.bottom)], stroke=theme.selected, width=1.2)
         painter.paint(surface, scene.shapes, PIXELS)
         if agree:

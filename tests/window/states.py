@@ -99,7 +99,6 @@ def of_run(window):
     bar, slider = window.time_bar, window.slider
     banner = window._ending.banner()
     scopes, plots = window.dock.scopes, window.dock.scopes._plots
-    corner = scopes._place.topleft
     return {
         "time": round(frame.time, 3),
         "row": source.row,
@@ -137,8 +136,10 @@ def of_run(window):
         "menu": {title: at.center for title, at in window.menu.places.items()},
         "chosen": window.menu.chosen,
         "closes": {name: place.center for name, place in window.dock.closes.items()},
-        "scopes": {trace.name: [*trace.bodies] for trace in window.dock.scopes.traces},
-        "areas": {each.signal.name: [*each.area.move(corner)] for each in plots},
+        "scopes": {
+            getattr(what, "__name__", what): [*bodies] for what, bodies in scopes.traces.items()
+        },
+        "areas": {each.signal.name: [*scopes._on_surface(each).area] for each in plots},
         "panels": {name: [*plate] for name, plate in window.dock.plates.items()},
         "plot": [*window.layout.plot],
         "sliders": sliders_of(window.dock.parameters) if window.dock.parameters.is_open else {},
@@ -155,7 +156,6 @@ def sliders_of(panel):
         "values": {name: each.value for name, each in panel.parameters().items()},
         "places": {name: [*lines[name]] for name in panel.places},
         "resets": {name: place.center for name, place in panel.resets.items()},
-        "focus": panel.focus,
         "typed": panel.typed.text,
         "said": panel._words()[0],
     }
@@ -163,7 +163,7 @@ def sliders_of(panel):
 
 def predictions_of(panel):
     """Return how many predictions are ok, and of how many; None where they are not shown."""
-    found = panel.reading.predictions
+    found = panel.found
     return [sum(bool(each.ok) for each in found), len(found)] if panel.is_open else None
 
 
