@@ -192,11 +192,6 @@ class Flush:
             chipmunk.put_point(arbiter, x, y, self.px, self.py)
 
 
-def join(shape: Handle) -> cython.void:
-    """Let contacts with a shape of a body be straightened."""
-    chipmunk.set_type(shape, library.JOINED)
-
-
 def flush_of(arbiter: Arbiter, second: cython.bint) -> Flush:
     """Return what was shown of a contact's first or second shape."""
     flush: Flush = library.thing_at(chipmunk.data_of(chipmunk.shape_of(arbiter, second)))

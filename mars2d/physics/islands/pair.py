@@ -9,10 +9,11 @@ from __future__ import annotations
 from math import sqrt
 from typing import Any
 
+from mars2d.physics.islands import chipmunk, library
 from mars2d.physics.islands import shadow as cython
 from mars2d.physics.islands.arithmetic import length
 from mars2d.physics.islands.body import Body
-from mars2d.physics.islands.flush import join, lay
+from mars2d.physics.islands.flush import lay
 from mars2d.physics.islands.piece import Corner, Piece
 from mars2d.physics.islands.seams import Seams
 
@@ -407,10 +408,10 @@ class PiecePair(Pair):
         x: cython.double = self.between_x
         y: cython.double = self.between_y
         if lay(self.p, self.q, x, y, self.b.number, room):
-            join(self.p.shape)
+            chipmunk.set_type(self.p.shape, library.JOINED)
             self.a.laid = True
         if lay(self.q, self.p, -x, -y, self.a.number, room):
-            join(self.q.shape)
+            chipmunk.set_type(self.q.shape, library.JOINED)
             self.b.laid = True
 
     def meet(self) -> cython.void:

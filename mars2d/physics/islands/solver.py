@@ -10,7 +10,7 @@ from mars2d.physics.islands.arithmetic import cosine_sine, decay_base, exponenti
 from mars2d.physics.islands.body import Body
 from mars2d.physics.islands.chipmunk import Held
 from mars2d.physics.islands.floor import hold
-from mars2d.physics.islands.flush import Flush, join, lay, straighten_contact
+from mars2d.physics.islands.flush import Flush, lay, straighten_contact
 from mars2d.physics.islands.library import Arbiters, Handle, Vector
 from mars2d.physics.islands.pair import Wall
 from mars2d.physics.islands.seams import correct_contact
@@ -109,7 +109,7 @@ class Solver:
             chipmunk.set_data(piece.shape, library.address_of(piece.flush))
             for other in body.pieces:
                 if other is not piece and lay(piece, other, 0.0, 0.0, body.number, self.room / 8):
-                    join(piece.shape)
+                    chipmunk.set_type(piece.shape, library.JOINED)
         if body.is_robot or body.rest_grip > 0.0:
             body.control = chipmunk.new_control()
             self.attach(body)
