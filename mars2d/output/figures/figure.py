@@ -97,7 +97,9 @@ def plot_snapshots(record: Rows, times: ArrayLike, *, layers: Layers | None = No
         layers or layers_of(scenario),
         robots_of(scenario),
     )
-    cols = min(len(rows), 4)
+    # the whole about twice as wide as high, no line much emptier than the others
+    most = ceil((2 * len(rows) * view.height / view.width) ** 0.5)
+    cols = ceil(len(rows) / ceil(len(rows) / min(len(rows), most, 4)))
     axes = new_axes(view, len(rows), cols, legend_width(entries))
     add_legend(axes[min(cols, len(axes)) - 1], entries, **BESIDE)
     for k, (ax, row) in enumerate(zip(axes, rows, strict=True)):
