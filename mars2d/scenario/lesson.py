@@ -7,7 +7,8 @@ import re
 from pathlib import Path
 
 HEADINGS = re.compile(
-    r"(?:^|(?<=[.?!)] ))(Question|Setting|Law(?: \([^)]*\))?|Prediction|Measured|Try|Play|Source): ",
+    r"(?:^|(?<=[.?!)] ))"
+    r"(Question|Setting|Law(?: \([^)]*\))?|Prediction|Measured|Try|Play|Source): ",
     flags=re.M,
 )
 """The words with which parts of a docstring begin."""
