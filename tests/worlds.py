@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 import mars2d
-from mars2d import Record, Scenario, World
+from mars2d import Record, Robot, Scenario, World
+from mars2d.addons import Map
 from mars2d.geometry.shapes import Polygon
 from mars2d.scenario.examples import GAME, examples
 from mars2d.scenario.experiment import open_experiment
@@ -44,6 +45,23 @@ def endless(
     """Return a world without a workspace that lasts for long."""
     fields = {"workspace": None, "stop_time": 1e5} | fields
     return World(Scenario(robots=robots, props=props, joints=joints, **fields))
+
+
+def observed(
+    sensor: Any, robots: Sequence[Any] = (), outlines: Sequence[Any] = (),
+    pose: Sequence[float] = (0, 0, 0), extra: Sequence[Any] = (), **fields: Any,
+) -> World:  # fmt: skip
+    """Return a world in which a tiny robot has measured, among others, obstacles and add-ons."""
+    carrier = Robot(pose=pose, diameter=0.01, sensors=[sensor], name="carrier")
+    addons = [Map(list(outlines)), *extra]
+    world = World(Scenario(robots=[carrier, *robots], addons=addons, workspace=None, **fields))
+    world.observe()
+    return world
+
+
+def reading(sensor: Any, *arguments: Any, **fields: Any) -> Any:
+    """Return what it has measured."""
+    return getattr(observed(sensor, *arguments, **fields).robots[0].sense, sensor.key)
 
 
 def drive(world: World, command: Any, seconds: float) -> np.ndarray:

@@ -11,7 +11,7 @@ from math import cos, exp, sin, sqrt, tan
 import numpy as np
 import pytest
 
-from mars2d import Car, Differential, Drive, Holonomic, Robot, Scenario, Unicycle, World
+from mars2d import Car, Drive, Holonomic, Robot, Scenario, Unicycle, World
 from tests.cases import each_case
 
 N = 800
@@ -68,19 +68,6 @@ def test_a_unicycle_that_drives_straight_strays_alike_at_any_sampling_time(sampl
     strays(pose, time, v, s * v / sqrt(2), s * v / (b * sqrt(2)))
 
 
-@pytest.mark.slow
-@each_case("sampling_time", PERIODS)
-@each_case("command", ["wheels", "twist"])
-def test_each_wheel_of_a_differential_drive_has_a_density_of_its_own(command, sampling_time):
-    b, r, s = 0.17, 0.06, 0.021
-    left, right = 1.9 * r, 5.3 * r
-    drive = Differential(noise=s, wheel_semiaxis=b, wheel_radius=r, command=command)
-    asked = (1.9, 5.3) if command == "wheels" else ((left + right) / 2, (right - left) / (2 * b))
-    pose, time = crowd(drive, asked, sampling_time)
-    omega = (right - left) / (2 * b)
-    like(pose[2], omega * time, s * sqrt((left**2 + right**2) * time) / (2 * b))
-
-
 @each_case("sampling_time", PERIODS)
 def test_a_holonomic_robot_strays_alike_in_all_directions(sampling_time):
     speed, angle, s = 0.31, 0.6, 0.11
@@ -90,15 +77,6 @@ def test_a_holonomic_robot_strays_alike_in_all_directions(sampling_time):
         like(pose[axis], velocity[axis] * time, s * speed * sqrt(time))
     assert np.corrcoef(pose[:2])[0, 1] == pytest.approx(0, abs=MEAN)
     assert not pose[2].any()
-
-
-@pytest.mark.slow
-@each_case("sampling_time", PERIODS)
-def test_a_car_that_drives_straight_strays_alike_at_any_sampling_time(sampling_time):
-    v, s, most, base = 0.41, 0.008, 0.5, 0.23
-    drive = Car(noise=s, max_steering=most, wheelbase=base)
-    pose, time = crowd(drive, (v, 0.0), sampling_time)
-    strays(pose, time, v, s * v, s * v * most / base)
 
 
 @pytest.mark.slow

@@ -105,17 +105,6 @@ def test_a_prop_moves_up_to_the_friction_that_the_force_overcomes(force, prop, x
     assert threshold([robot], prop, 0.8 * mu, 1.3 * mu) == pytest.approx(mu, rel=0.02)
 
 
-@each_case("count", [2, 3])
-def test_the_forces_of_several_robots_on_one_box_add_up(count):
-    robots = [
-        Robot(pose=(-0.351, 0.35 * (i - (count - 1) / 2), 0), drive=Unicycle(max_force=2))
-        for i in range(count)
-    ]
-    mu = count * 2 / GRAVITY
-    found = threshold(robots, Box(width=1.2), 0.8 * mu, 1.3 * mu)
-    assert found == pytest.approx(mu, rel=0.02)
-
-
 @each_case(
     "prop",
     [Box(ground_friction=0), Ball(diameter=0.4), Puck(diameter=0.4, ground_friction=0)],

@@ -36,14 +36,6 @@ def test_a_game_agrees_with_its_predictions(name, options):
     assert [p for p in predictions.values() if not p.ok] == []
 
 
-def test_a_blow_beside_the_middle_gives_less_speed_and_more_spin():
-    record, _ = predicted("shove_and_spin")
-    end = np.diff(record.prop_pose[-2:], axis=0)[0]
-    assert end[0, 1] < end[0, 0]
-    assert end[2, 1] > 0.0
-    assert end[2, 0] == 0.0
-
-
 @pytest.mark.parametrize(("blue", "winner"), [(5.0, "red"), (7.0, "blue")])
 def test_the_stronger_team_wins_the_tug_of_war(blue, winner):
     record, _ = predicted("tug_of_war", blue=blue)

@@ -197,7 +197,6 @@ def test_a_guard_half_as_quick_as_the_hunter_is_enough_and_needs_a_body(seed):
 # -- the selfish herd ----------------------------------------------------------------------------
 
 
-@pytest.mark.nightly
 def test_the_risk_of_one_is_one_over_the_number():
     for number in (4, 8, 16):
         runs = 120

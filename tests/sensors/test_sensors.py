@@ -13,18 +13,7 @@ from mars2d import InputError, LawError, Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.sensors import Proximity, Sensor
 from tests.cases import each_case
-
-
-def reading(sensor: Sensor, robots: list[Robot], outlines=(), pose=(0, 0, 0)):
-    """What the sensor reads on a tiny robot at `pose` among others and obstacles."""
-    carrier = Robot(pose=pose, diameter=0.01, sensors=[sensor], name="carrier")
-    scenario = Scenario(
-        robots=[carrier, *robots], addons=[Map(list(outlines))], workspace=None, stop_time=1
-    )
-    world = World(scenario)
-    world.observe()
-    return getattr(world.robots[0].sense, sensor.key)
-
+from tests.worlds import reading
 
 # -- proximity ------------------------------------------------------------------------------
 

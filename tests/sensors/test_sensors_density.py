@@ -71,14 +71,6 @@ def test_one_reading_is_the_noisier_the_shorter_its_time(every):
     spread(found[::every, 0].ravel(), 0.02 / sqrt(0.04 * every))
 
 
-@pytest.mark.slow
-@each_case("sampling_time", [0.4, 0.043])
-def test_the_bias_walks_alike_at_any_sampling_time(sampling_time):
-    world = crowd(Imu(bias_walk=(0.02, 0.05, 0.003)), sampling_time)
-    for k, density in enumerate((0.02, 0.05, 0.003)):
-        spread(world.record.sensors["imu"][-1, :, k], density * sqrt(world.time))
-
-
 @each_case("every", [1, 3, 7])
 def test_at_a_low_rate_a_gyroscope_misses_no_turn(every):
     """A reading is the mean over the time since the one before; so they sum up to the heading."""
@@ -130,15 +122,3 @@ def test_the_drift_of_odometry_is_alike_at_any_rate(sampling_time, every):
     deviation = sqrt(drift**2 * way / 2 + bends**2 / 12)
     assert off[:, 0].mean() == pytest.approx(-bends / 4, abs=4 * deviation / sqrt(N))
     assert off[:, 0].std() == pytest.approx(deviation, rel=4 / sqrt(2 * N))
-
-
-@pytest.mark.slow
-@each_case("sampling_time", [0.4, 0.043])
-def test_odometry_follows_a_noisy_drive_at_any_sampling_time(sampling_time):
-    """The wheels do turn so; what it is off by is its own drift alone."""
-    v, b, drift, noise = 0.31, 0.14, 0.004, 0.01
-    drive = Unicycle(wheel_semiaxis=b, noise=noise)
-    world = crowd(Odometry(drift=drift), sampling_time, (v, 0.0), drive)
-    believed = world.record.sensors["odometry"][-1, :, 2]
-    spread(world.pose[2], noise * v * sqrt(world.time / 2) / b)
-    spread(believed - world.pose[2], drift * sqrt(v * world.time / 2) / b)
