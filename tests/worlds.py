@@ -48,12 +48,14 @@ def endless(
 
 
 def observed(
-    sensor: Any, robots: Sequence[Any] = (), outlines: Sequence[Any] = (),
-    pose: Sequence[float] = (0, 0, 0), extra: Sequence[Any] = (), **fields: Any,
-) -> World:  # fmt: skip
-    """Return a world in which a tiny robot has measured, among others, obstacles and add-ons."""
+    sensor: Any, robots: Sequence[Any] = (), outlines: Sequence[Any] = (), **fields: Any
+) -> World:
+    """Return a world in which a tiny robot has measured, among others and obstacles.
+
+    fields: of the scenario, with `pose` that of the robot and `extra` more add-ons.
+    """
+    pose, addons = fields.pop("pose", (0, 0, 0)), [Map(list(outlines)), *fields.pop("extra", ())]
     carrier = Robot(pose=pose, diameter=0.01, sensors=[sensor], name="carrier")
-    addons = [Map(list(outlines)), *extra]
     world = World(Scenario(robots=[carrier, *robots], addons=addons, workspace=None, **fields))
     world.observe()
     return world
@@ -62,6 +64,18 @@ def observed(
 def reading(sensor: Any, *arguments: Any, **fields: Any) -> Any:
     """Return what it has measured."""
     return getattr(observed(sensor, *arguments, **fields).robots[0].sense, sensor.key)
+
+
+def crowd(
+    count: int, command: Sequence[float], sampling_time: float, seed: int, **robot: Any
+) -> World:
+    """Return a world after 10 s in which robots far from each other have all done the same."""
+    robots = [Robot(pose=(20.0 * (i % 50), 20.0 * (i // 50), 0), **robot) for i in range(count)]
+    fields = {"sampling_time": sampling_time, "stop_time": 10.0, "physics": "ideal"}
+    world = World(Scenario(robots=robots, workspace=None, **fields), seed=seed)
+    while not world.over:
+        world.step(np.tile(np.reshape(command, (-1, 1)), count))
+    return world
 
 
 def drive(world: World, command: Any, seconds: float) -> np.ndarray:

@@ -13,9 +13,9 @@ import pytest
 
 from mars2d import Car, Drive, Holonomic, Robot, Scenario, Unicycle, World
 from tests.cases import each_case
+from tests.worlds import crowd
 
 N = 800
-SECONDS = 10.0
 PERIODS = [0.4, 0.13]
 
 MEAN = 4 / sqrt(N)
@@ -25,18 +25,10 @@ SPREAD = 4 / sqrt(2 * N)
 """Four standard deviations of an estimated standard deviation, relatively."""
 
 
-def crowd(drive: Drive, command, sampling_time: float) -> tuple[np.ndarray, float]:
+def come(drive: Drive, command, sampling_time: float) -> tuple[np.ndarray, float]:
     """Return how far N robots have come after ten seconds (3, N), and the time, seconds."""
-    robots = [Robot(pose=(20.0 * (i % 50), 20.0 * (i // 50), 0), drive=drive) for i in range(N)]
-    scenario = Scenario(
-        robots=robots, physics="ideal", workspace=None,
-        sampling_time=sampling_time, stop_time=SECONDS,
-    )  # fmt: skip
-    world = World(scenario, seed=7)
-    start, commands = world.pose.copy(), np.tile(np.reshape(command, (2, 1)), N)
-    while not world.over:
-        world.step(commands)
-    return world.pose - start, world.time
+    world = crowd(N, command, sampling_time, seed=7, drive=drive)
+    return world.pose - world.scenario.initial_pose, world.time
 
 
 def like(values: np.ndarray, mean: float, deviation: float) -> None:
@@ -64,7 +56,7 @@ def strays(pose: np.ndarray, time: float, speed: float, along: float, turn: floa
 @each_case("sampling_time", PERIODS)
 def test_a_unicycle_that_drives_straight_strays_alike_at_any_sampling_time(sampling_time):
     v, b, s = 0.37, 0.13, 0.0071
-    pose, time = crowd(Unicycle(noise=s, wheel_semiaxis=b), (v, 0.0), sampling_time)
+    pose, time = come(Unicycle(noise=s, wheel_semiaxis=b), (v, 0.0), sampling_time)
     strays(pose, time, v, s * v / sqrt(2), s * v / (b * sqrt(2)))
 
 
@@ -72,7 +64,7 @@ def test_a_unicycle_that_drives_straight_strays_alike_at_any_sampling_time(sampl
 def test_a_holonomic_robot_strays_alike_in_all_directions(sampling_time):
     speed, angle, s = 0.31, 0.6, 0.11
     velocity = (speed * cos(angle), speed * sin(angle))
-    pose, time = crowd(Holonomic(noise=s), velocity, sampling_time)
+    pose, time = come(Holonomic(noise=s), velocity, sampling_time)
     for axis in (0, 1):
         like(pose[axis], velocity[axis] * time, s * speed * sqrt(time))
     assert np.corrcoef(pose[:2])[0, 1] == pytest.approx(0, abs=MEAN)
@@ -85,7 +77,7 @@ def test_a_holonomic_robot_strays_alike_in_all_directions(sampling_time):
 def test_a_car_on_a_bend_turns_as_far_as_it_is_told_with_the_noise_of_both(delta, sampling_time):
     v, s, most, base = 0.41, 0.1, 0.7, 0.23
     drive = Car(noise=s, max_steering=most, wheelbase=base)
-    pose, time = crowd(drive, (v, delta), sampling_time)
+    pose, time = come(drive, (v, delta), sampling_time)
     deviation = s * v / base * sqrt((tan(delta) ** 2 + most**2) * time)
     like(pose[2], v * tan(delta) / base * time, deviation)
 

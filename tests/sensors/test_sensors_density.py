@@ -14,9 +14,9 @@ import mars2d
 from mars2d import Robot, Scenario, Unicycle, World
 from mars2d.sensors import NUMBER, Imu, Odometry, Quantity, Sensor
 from tests.cases import each_case
+from tests.worlds import crowd
 
 N = 100
-SECONDS = 10.0
 PERIODS = [(0.4, 1), (0.1, 5), (0.043, 1)]
 
 
@@ -24,21 +24,6 @@ def spread(values: np.ndarray, deviation: float) -> None:
     """Assert that values of the mean 0 have this standard deviation, to four of its own."""
     assert values.std() == pytest.approx(deviation, rel=4 / sqrt(2 * values.size))
     assert values.mean() == pytest.approx(0, abs=4 * deviation / sqrt(values.size))
-
-
-def crowd(sensor: Sensor, sampling_time: float, command=(0.0, 0.0), drive=None) -> World:
-    """Return a world after ten seconds in which N robots carry a sensor, far from each other."""
-    drive = drive or Unicycle(wheel_semiaxis=0.14)
-    robots = [Robot(pose=(0, 20.0 * k, 0), drive=drive, sensors=[sensor]) for k in range(N)]
-    scenario = Scenario(
-        robots=robots, physics="ideal", workspace=None,
-        sampling_time=sampling_time, stop_time=SECONDS,
-    )  # fmt: skip
-    world = World(scenario, seed=11)
-    commands = np.tile(np.reshape(command, (2, 1)), N)
-    while not world.over:
-        world.step(commands)
-    return world
 
 
 def summed(world: World, key: str, every: int) -> tuple[np.ndarray, float]:
@@ -56,7 +41,7 @@ def summed(world: World, key: str, every: int) -> tuple[np.ndarray, float]:
 def test_the_heading_of_a_gyroscope_walks_alike_at_any_rate(sampling_time, every):
     density = (0.03, 0.021, 0.004)
     rate = None if every == 1 else 1 / (every * sampling_time)
-    world = crowd(Imu(noise=density, rate=rate), sampling_time)
+    world = crowd(N, (0, 0), sampling_time, 11, sensors=[Imu(noise=density, rate=rate)])
     found, time = summed(world, "imu", every)
     for k in range(3):
         spread(found[:, k], density[k] * sqrt(time))
@@ -111,7 +96,8 @@ def test_a_sensor_of_ones_own_may_have_a_density():
 def test_the_drift_of_odometry_is_alike_at_any_rate(sampling_time, every):
     v, b, drift = 0.31, 0.14, 0.004
     rate = None if every == 1 else 1 / (every * sampling_time)
-    world = crowd(Odometry(drift=drift, rate=rate), sampling_time, (v, 0.0))
+    robot = {"drive": Unicycle(wheel_semiaxis=b), "sensors": [Odometry(drift=drift, rate=rate)]}
+    world = crowd(N, (v, 0.0), sampling_time, 11, **robot)
     last = world.record.sensors["odometry"][::every][-1]
     way = v * every * sampling_time * (len(world.record.time[::every]) - 1)
     off = last - [way, 0, 0]

@@ -248,15 +248,6 @@ def test_what_is_in_the_file_is_not_run_again_and_seeds_and_values_may_become_mo
     assert (here / "r.csv").read_bytes() == (here / "again.csv").read_bytes()
 
 
-def test_a_torn_line_is_run_again(here):
-    whole = sweep(None, 3, out="r.csv")
-    data = (here / "r.csv").read_bytes()
-    (here / "r.csv").write_bytes(data[:-20])
-    assert sweep(None, 3, out="r.csv") == whole
-    assert (here / "r.csv").read_bytes() == data
-    assert runs(here) == 4
-
-
 def test_rows_with_errors_are_run_again_only_if_asked(here):
     law = 'return (1 / 0 if Path("bad").exists() and robot.pose[2] else 0.1), 0.0'
     (here / "drift.py").write_text(DRIFT.replace("return gain * robot.rng.uniform(), 0.0", law))
