@@ -7,9 +7,8 @@ import re
 from pathlib import Path
 
 HEADINGS = re.compile(
-    r"(?:^|(?<=[.?!)] ))"
+    r"(?m)(?:^|(?<=[.?!)] ))"
     r"(Question|Setting|Law(?: \([^)]*\))?|Prediction|Measured|Try|Play|Source): ",
-    flags=re.M,
 )
 """The words with which parts of a docstring begin."""
 
@@ -22,8 +21,7 @@ def lesson_of(path: Path | None) -> list[tuple[str, str]]:
     """
     if path is None or path.suffix != ".py":
         return []
-    text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
-    first, *rest = HEADINGS.split(text)
+    first, *rest = HEADINGS.split(ast.get_docstring(ast.parse(path.read_text("utf-8"))) or "")
     named = (("", first), *zip(rest[::2], rest[1::2], strict=True))
     parts = [(heading, re.sub(r"\n(?!.*\S  )", " ", text.strip())) for heading, text in named]
     return [(heading, text[:1].upper() + text[1:]) for heading, text in parts]
