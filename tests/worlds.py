@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from math import cos, sin
+from math import cos, sin, sqrt
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 
 import mars2d
 from mars2d import Record, Robot, Scenario, World
@@ -76,6 +77,12 @@ def crowd(
     while not world.over:
         world.step(np.tile(np.reshape(command, (-1, 1)), count))
     return world
+
+
+def like(values: np.ndarray, mean: float, deviation: float) -> None:
+    """Assert that values have this mean and standard deviation, to four of their own."""
+    assert values.mean() == pytest.approx(mean, abs=4 * deviation / sqrt(values.size))
+    assert values.std() == pytest.approx(deviation, rel=4 / sqrt(2 * values.size))
 
 
 def drive(world: World, command: Any, seconds: float) -> np.ndarray:

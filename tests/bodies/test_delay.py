@@ -7,7 +7,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mars2d import Scenario, World
 from mars2d.bodies.delay import DelayLine
 
 
@@ -28,10 +27,3 @@ def test_what_is_in_effect_was_issued_a_delay_ago(delay, sampling_time, count):
             issued = np.floor((middle - delay) / sampling_time)
             assert command[0, 0] == max(issued + 1, 0)
             time += duration
-
-
-def test_command_time_says_when_a_command_takes_effect():
-    world = World(Scenario(command_delay=0.25, sampling_time=0.1, stop_time=1))
-    while not world.over:
-        world.step()
-    assert np.array_equal(world.record.command_time, world.record.time + 0.25)

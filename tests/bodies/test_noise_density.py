@@ -13,28 +13,19 @@ import pytest
 
 from mars2d import Car, Drive, Holonomic, Robot, Scenario, Unicycle, World
 from tests.cases import each_case
-from tests.worlds import crowd
+from tests.worlds import crowd, like
 
 N = 800
 PERIODS = [0.4, 0.13]
 
 MEAN = 4 / sqrt(N)
-"""Four standard deviations of an estimated mean, in standard deviations; of a correlation, too."""
-
-SPREAD = 4 / sqrt(2 * N)
-"""Four standard deviations of an estimated standard deviation, relatively."""
+"""Four standard deviations of an estimated correlation."""
 
 
 def come(drive: Drive, command, sampling_time: float) -> tuple[np.ndarray, float]:
     """Return how far N robots have come after ten seconds (3, N), and the time, seconds."""
     world = crowd(N, command, sampling_time, seed=7, drive=drive)
     return world.pose - world.scenario.initial_pose, world.time
-
-
-def like(values: np.ndarray, mean: float, deviation: float) -> None:
-    """Assert that values (N,) have this mean and standard deviation."""
-    assert values.mean() == pytest.approx(mean, abs=MEAN * deviation)
-    assert values.std() == pytest.approx(deviation, rel=SPREAD)
 
 
 def strays(pose: np.ndarray, time: float, speed: float, along: float, turn: float) -> None:

@@ -36,6 +36,12 @@ OTHERS = [
     ("leader_following", {"radius": 1.5}),
     ("leader_following", {"radius": -2.5}),
     ("leader_following", {"speed": 0.15}),
+    *(("herding", {"seed": start, "start": start}) for start in range(1, 9)),
+    *(
+        ("lion_and_man", {"reach": reach, "start": start})
+        for reach in (0.8, 0.2, 0.05)
+        for start in (0.4, 1.0)
+    ),
     ("guard_the_line", {"mu": 0.7, "seed": 3}),
     ("guard_the_line", {"mu": 0.5, "seed": 1}),
     ("guard_the_line", {"mu": 0.6, "seed": 5}),
@@ -67,5 +73,5 @@ OTHERS = [
 @pytest.mark.parametrize(("name", "options"), OTHERS)
 def test_an_example_agrees_with_its_predictions(name, options):
     _, _, predictions = played(name, **options)
-    assert predictions
+    assert True in [p.ok for p in predictions]
     assert [p for p in predictions if p.ok is False] == []

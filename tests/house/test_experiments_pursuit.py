@@ -1,4 +1,4 @@
-"""The pursuits and the herding: what the paper found, and what theory says of it."""
+"""The pursuits of the paper: what it found, and what theory says of it."""
 
 from math import hypot
 
@@ -95,12 +95,3 @@ def test_the_rate_of_a_cells_area_is_that_of_the_formula():
             rate += part * (to[:, 2] @ velocity[:, 2] - to[:, i] @ velocity[:, i])
         later, sooner = (Tessellation(at + s * h * velocity, region).areas[2] for s in (1, -1))
         assert (later - sooner) / (2 * h) == pytest.approx(rate, abs=1e-5)
-
-
-# -- herding ------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("start", range(1, 9))
-def test_the_dog_brings_all_sheep_in(start):
-    _, _, predictions = played("herding", seed=start, start=start)
-    assert [p.ok for p in predictions] == [True, True]

@@ -48,7 +48,7 @@ def test_proximity_says_whether_a_surface_lies_in_the_sector(discs, walls, headi
     things += [shapely.LineString(ends) for ends in walls]
     assume(all(thing.distance(here) > 0.01 for thing in things))
     try:
-        found = reading(Proximity(range=radius, field_of_view=angle), robots, walls, pose)
+        found = reading(Proximity(range=radius, field_of_view=angle), robots, walls, pose=pose)
     except InputError:
         assume(False)  # the others start inside each other
     view = sector(pose, radius, angle)

@@ -285,14 +285,3 @@ def test_the_world_knows_where_a_moving_beacon_is_now():
 def test_a_beacon_that_can_not_be_is_an_error(fields, message):
     with pytest.raises(InputError, match=message):
         addons.Beacon(**fields)
-
-
-def test_sensor_and_addon_of_the_same_name_come_back_from_a_record(tmp_path):
-    robot = Robot(sensors=[sensors.Beacon(names=["lamp"])])
-    scenario = Scenario(robots=[robot], addons=LAMPS, stop_time=0.2)
-    mars2d.run(scenario).save(tmp_path / "r.npz")
-    loaded = mars2d.load(tmp_path / "r.npz")
-    assert loaded.scenario == scenario
-    assert isinstance(loaded.scenario.addons[0], addons.Beacon)
-    assert isinstance(loaded.scenario.robots[0].sensors[0], sensors.Beacon)
-    assert loaded.missing == ()

@@ -14,16 +14,10 @@ import mars2d
 from mars2d import Robot, Scenario, Unicycle, World
 from mars2d.sensors import NUMBER, Imu, Odometry, Quantity, Sensor
 from tests.cases import each_case
-from tests.worlds import crowd
+from tests.worlds import crowd, like
 
 N = 100
 PERIODS = [(0.4, 1), (0.1, 5), (0.043, 1)]
-
-
-def spread(values: np.ndarray, deviation: float) -> None:
-    """Assert that values of the mean 0 have this standard deviation, to four of its own."""
-    assert values.std() == pytest.approx(deviation, rel=4 / sqrt(2 * values.size))
-    assert values.mean() == pytest.approx(0, abs=4 * deviation / sqrt(values.size))
 
 
 def summed(world: World, key: str, every: int) -> tuple[np.ndarray, float]:
@@ -44,7 +38,7 @@ def test_the_heading_of_a_gyroscope_walks_alike_at_any_rate(sampling_time, every
     world = crowd(N, (0, 0), sampling_time, 11, sensors=[Imu(noise=density, rate=rate)])
     found, time = summed(world, "imu", every)
     for k in range(3):
-        spread(found[:, k], density[k] * sqrt(time))
+        like(found[:, k], 0, density[k] * sqrt(time))
     largest = np.abs(np.corrcoef(found.T) - np.eye(3)).max()
     assert largest < 4 / sqrt(N)
 
@@ -53,7 +47,7 @@ def test_the_heading_of_a_gyroscope_walks_alike_at_any_rate(sampling_time, every
 def test_one_reading_is_the_noisier_the_shorter_its_time(every):
     robot = Robot(sensors=[Imu(noise=0.02, rate=25 / every)])
     found = mars2d.run(Scenario(robots=[robot], sampling_time=0.04, stop_time=60)).sensors["imu"]
-    spread(found[::every, 0].ravel(), 0.02 / sqrt(0.04 * every))
+    like(found[::every, 0].ravel(), 0, 0.02 / sqrt(0.04 * every))
 
 
 @each_case("every", [1, 3, 7])
@@ -84,7 +78,7 @@ def test_a_sensor_of_ones_own_may_have_a_density():
     robot = Robot(sensors=[Gyroscope(noise=(0.05, 0.0), rate=5, outliers=0.0)])
     scenario = Scenario(robots=[robot], sampling_time=0.04, stop_time=100)
     found = mars2d.run(scenario).sensors["gyroscope"][::5, 0]
-    spread(found[:, 0], 0.05 / sqrt(0.2))
+    like(found[:, 0], 0, 0.05 / sqrt(0.2))
     assert not found[:, 1].any()
 
 
@@ -102,8 +96,8 @@ def test_the_drift_of_odometry_is_alike_at_any_rate(sampling_time, every):
     way = v * every * sampling_time * (len(world.record.time[::every]) - 1)
     off = last - [way, 0, 0]
     turning = drift**2 / (2 * b * b)
-    spread(off[:, 2], sqrt(turning * way))
-    spread(off[:, 1], sqrt(turning * way**3 / 3))
+    like(off[:, 2], 0, sqrt(turning * way))
+    like(off[:, 1], 0, sqrt(turning * way**3 / 3))
     bends = way**2 * turning
     deviation = sqrt(drift**2 * way / 2 + bends**2 / 12)
     assert off[:, 0].mean() == pytest.approx(-bends / 4, abs=4 * deviation / sqrt(N))
