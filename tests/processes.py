@@ -95,7 +95,7 @@ def started(command: list[str], **options: Any) -> Iterator[subprocess.Popen[str
 
 
 def begun(*arguments: object, **options: Any) -> AbstractContextManager[subprocess.Popen[str]]:
-    """Start a command line of MARS2D, as `started` does, and read what it says."""
+    """Start a command line of MARS2D as `started` does, by Python with an option before -m."""
     command = [sys.executable, "-P", "-m", "mars2d", *map(str, arguments)]
     return started(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options)
 

@@ -14,6 +14,7 @@ import threading
 import time
 from collections.abc import Callable
 from contextlib import suppress
+from itertools import pairwise
 from math import inf
 from pathlib import Path
 from types import FrameType
@@ -39,8 +40,8 @@ def leave(number: int, frame: FrameType | None) -> None:  # noqa: ARG001
     os._exit(INTERRUPTED)
 
 
-OURS = sys.orig_argv[1:3] == ["-m", "mars2d"] or Path([*sys.orig_argv, ""][1]).stem == "mars2d"
-"""Whether this process was started as ``mars2d`` or ``python -m mars2d``."""
+OURS = ("-m", "mars2d") in pairwise(sys.orig_argv) or Path([*sys.argv, ""][0]).stem == "mars2d"
+"""Whether this process was started as ``mars2d`` or ``python -m mars2d``, with options or not."""
 
 if OURS and threading.current_thread() is threading.main_thread():
     for each in ENDING:
