@@ -15,7 +15,6 @@ import time
 from collections.abc import Callable
 from contextlib import suppress
 from itertools import pairwise
-from math import inf
 from pathlib import Path
 from types import FrameType
 from typing import Any
@@ -29,7 +28,7 @@ GRACE = 2.0
 ENDING = signal.SIGINT, signal.SIGTERM, getattr(signal, "SIGHUP", signal.SIGTERM)
 """Ctrl-C, `kill`, and the end of the terminal, which Windows does not tell."""
 
-_raised = -inf
+_raised = float("-inf")
 """The time at which KeyboardInterrupt was last raised."""
 
 
@@ -90,7 +89,7 @@ class interrupts:  # noqa: N801 - it is used as a function
                     signal.signal(number, self)
             if not any(isinstance(each, interrupts) for each in self.before.values()):
                 global _raised  # noqa: PLW0603 - a process has one Ctrl-C
-                _raised = -inf
+                _raised = float("-inf")
         return self._check
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:

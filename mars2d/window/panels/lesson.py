@@ -32,6 +32,5 @@ class Lesson(Panel):
         theme, found = self.painter.theme, list[Row]()
         for heading, text in self.parts:
             found += self.wrapped(Word(heading, theme.ink, bold=True), width)
-            for line in text.splitlines():
-                found += self.wrapped(Word(line, theme.text), width)
+            found += self.wrapped(Word(text, theme.text), width)
         return found
