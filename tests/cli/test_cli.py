@@ -16,14 +16,6 @@ from mars2d.cli.outputs import run_and_save
 from tests.cases import each_case
 from tests.processes import mars
 
-
-@pytest.fixture
-def typed(tmp_path, monkeypatch, capsys):
-    """Return a function that runs a command in an empty folder: exit code, stdout, stderr."""
-    monkeypatch.chdir(tmp_path)
-    return lambda *words: (cli.main([*map(str, words)]), *capsys.readouterr())
-
-
 HEAD = "import numpy as np\nfrom mars2d import *\nfrom mars2d.addons import Map\n"
 
 
