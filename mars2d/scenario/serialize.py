@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from functools import cache
 from typing import Any, NamedTuple, get_args, get_origin, get_type_hints
 
 from mars2d.addons.base import Addon
 from mars2d.addons.communication import Burst
+from mars2d.addons.floor import Floor
 from mars2d.addons.map import Map
 from mars2d.bodies.drives.base import Drive
 from mars2d.bodies.drives.wheeled import Unicycle
@@ -16,8 +18,9 @@ from mars2d.bodies.joints.base import Joint
 from mars2d.bodies.props.base import Prop
 from mars2d.bodies.props.solid import Solid
 from mars2d.core.description import Description, snake_case
-from mars2d.core.errors import InputError
+from mars2d.core.errors import InputError, one_line
 from mars2d.core.materials import Coefficient
+from mars2d.core.picture import holds_pixels, picture_name, with_pixels, without_pixels
 from mars2d.geometry.shapes import Compound, Disc, Polygon, Shape
 from mars2d.scenario.animation import Animation
 from mars2d.scenario.controllers import Controller
@@ -62,12 +65,6 @@ def kinds_of(base: type[Description]) -> dict[str, type[Description]]:
     return {kind.__name__: kind for kind in all_kinds().values() if issubclass(kind, base)}
 
 
-def kind_of(plain: dict[str, Any]) -> type[Description] | None:
-    """Return the class of a part that `from_description` made plain; None if it is not known."""
-    name = plain.get("type")
-    return all_kinds().get(name) if isinstance(name, str) else None
-
-
 def is_ready_made(kind: type | None) -> bool:
     """Return whether a class is one of the ready-made laws, which a file can name."""
     return kind in kinds_of(Controller).values()
@@ -83,15 +80,9 @@ def changed(part: Description, index: int = 0) -> dict[str, Any]:
     {'mass': 2.0}
     """
     kind = "robot" if isinstance(part, Robot) else snake_case(type(part).__name__)
-    found = {}
-    for field in dataclasses.fields(part):
-        value = getattr(part, field.name)
-        factory = field.default_factory
-        usual = field.default if factory is dataclasses.MISSING else factory()
-        named = field.name == "name" and isinstance(part, (Robot, Prop))
-        by_itself = named and value == f"{kind}{index}"
-        if not (by_itself or usual == value):  # without a default, MISSING equals nothing
-            found[field.name] = value
+    found = part._changed()
+    if isinstance(part, (Robot, Prop)) and part.name == f"{kind}{index}":
+        del found["name"]
     return found
 
 
@@ -184,6 +175,49 @@ def without_code(scenario: Scenario) -> tuple[Scenario, tuple[str, ...]]:
     return kept.with_laws([robot.controller for robot in scenario.robots]), missing
 
 
+def to_record(value: Any) -> Any:
+    """Return what a record holds as plain data; of a scenario also the pictures of its floors.
+
+    A picture that can't be read any more stays a name.
+    """
+    if not isinstance(value, Scenario):
+        return from_description(value)
+
+    def enclosed(floor: Floor) -> str:
+        with suppress(InputError):
+            return with_pixels(str(floor.image), floor.picture)
+        return str(floor.image)
+
+    return from_description(_with_images(value, enclosed))
+
+
+def of_record(plain: Any) -> tuple[Scenario, tuple[str, ...]]:
+    """Return the scenario of a record, and the names of missing parts, as `to_scenario` does.
+
+    A picture that the record does not hold is one of these; no file is opened for it.
+    """
+    lost: dict[str, None] = {}
+
+    def held(floor: Floor) -> str:
+        image = str(floor.image)
+        if not holds_pixels(image):
+            lost[f"picture {one_line(picture_name(image))} of {type(floor).__name__}"] = None
+            return without_pixels(image)
+        return image
+
+    scenario, missing = to_scenario(plain)
+    return _with_images(scenario, held), (*missing, *lost)
+
+
+def _with_images(scenario: Scenario, image: Callable[[Floor], str]) -> Scenario:
+    """Return a scenario with other texts as images of its floors."""
+    addons = [
+        addon.replace(image=image(addon)) if isinstance(addon, Floor) and addon.image else addon
+        for addon in scenario.addons
+    ]
+    return scenario if addons == [*scenario.addons] else scenario.replace(addons=addons)
+
+
 def _to_description(value: Any, missing: list[str]) -> Any:
     if isinstance(value, list):
         items = [_to_description(item, missing) for item in value]
@@ -199,8 +233,9 @@ def _to_description(value: Any, missing: list[str]) -> Any:
         missing.append(f"{value['type']}, with its function {lost}")
         return _LEFT_OUT
     fields = {name: _to_description(each, missing) for name, each in read.items()}
-    if "controller" in value and is_ready_made(kind_of(value["controller"] or {})):
-        fields["controller"] = _to_description(value["controller"], missing)
+    law = value.get("controller")
+    if law and is_ready_made(all_kinds().get(law.get("type"))):
+        fields["controller"] = _to_description(law, missing)
     if "own" in value:
         missing.append(f"{value['own']} {value['type']}")
         if value["own"] == "prop":

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import mars2d
+from mars2d.scenario.code_file import lesson_of
 from mars2d.scenario.examples import examples, thumbnail_of
-from mars2d.scenario.lesson import lesson_of
 from tests.cases import each_case
 from tests.house.goldens import SETTINGS, Golden
 

@@ -44,8 +44,8 @@ def of_bodies(each: Callable[[Scene, Scenario, int, Float], None]) -> Callable[[
     """Return a layer's function of the frame, for one that draws body by body; see `Layer.each`."""
 
     def shapes(frame: Frame) -> Scene:
-        scene = Scene()
-        for body, pose in enumerate(frame.all_poses.T):
+        scene, bodies, n = Scene(), [*enumerate(frame.all_poses.T)], frame.pose.shape[1]
+        for body, pose in (*bodies[n:], *bodies[:n]):  # the last name is never left out
             each(scene, frame.scenario, body, pose)
         return scene
 
@@ -62,8 +62,7 @@ class Layer:
     the animation says. at_first: whether it is on at first. stands: whether it is the same in all
     frames of a scenario; a painter may keep it. each: in place of shapes, draws one body's part of
     the layer, given its index in `Scenario.bodies` and its pose (3,), if it depends on nothing
-    else. along:
-    other layers that its key switches with it, by name.
+    else. along: other layers that its key switches with it, by name.
     """
 
     name: str
