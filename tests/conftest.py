@@ -7,11 +7,13 @@ import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
 
+from mars2d.cli.command_line import main
 from tests.browser import running_browser
 
 settings.register_profile(
@@ -87,6 +89,15 @@ def child() -> Child:
         )
 
     return run
+
+
+@pytest.fixture
+def typed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> Callable[..., tuple[int, str, str]]:
+    """Return a function that runs a command in an empty folder: exit code, stdout, stderr."""
+    monkeypatch.chdir(tmp_path)
+    return lambda *words: (main([*map(str, words)]), *capsys.readouterr())
 
 
 @pytest.fixture(scope="session")

@@ -11,13 +11,11 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import Any
 
 import pytest
-
-from tests.forking import Nursery
 
 PATIENCE = 120.0
 """Seconds after which a test that waits fails. It only bounds hangs: machines may be busy."""
@@ -96,23 +94,19 @@ def started(command: list[str], **options: Any) -> Iterator[subprocess.Popen[str
             pass
 
 
-@functools.cache
-def _nursery() -> Nursery:
-    """Start the process that command lines are forked from."""
-    return Nursery(dict(os.environ), "mars2d.cli.verbs.run", "matplotlib.figure")
+def begun(*arguments: object, **options: Any) -> AbstractContextManager[subprocess.Popen[str]]:
+    """Start a command line of MARS2D as `started` does, by Python with an option before -m."""
+    command = [sys.executable, "-P", "-m", "mars2d", *map(str, arguments)]
+    return started(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options)
 
 
 def mars(
     *arguments: object, cwd: Path | None = None, **environment: str
 ) -> subprocess.CompletedProcess[str]:
     """Run a command line of MARS2D without a display, in a process of its own, to its end."""
-    words = [str(argument) for argument in arguments]
-    folder = Path.cwd() if cwd is None else cwd
-    process = _nursery().fork(
-        "mars2d.cli.command_line", words, bare_environment(**environment), folder
-    )
-    out, errors = process.communicate()
-    return subprocess.CompletedProcess(words, process.wait(PATIENCE), out, errors)
+    with begun(*arguments, cwd=cwd, env=bare_environment(**environment)) as process:
+        out, errors = process.communicate()
+    return subprocess.CompletedProcess(process.args, process.returncode, out, errors)
 
 
 @contextmanager

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from math import cos, sin
+from math import cos, sin, sqrt
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 
 import mars2d
-from mars2d import Record, Scenario, World
+from mars2d import Record, Robot, Scenario, World
+from mars2d.addons import Map
 from mars2d.geometry.shapes import Polygon
 from mars2d.scenario.examples import GAME, examples
 from mars2d.scenario.experiment import open_experiment
@@ -44,6 +46,43 @@ def endless(
     """Return a world without a workspace that lasts for long."""
     fields = {"workspace": None, "stop_time": 1e5} | fields
     return World(Scenario(robots=robots, props=props, joints=joints, **fields))
+
+
+def observed(
+    sensor: Any, robots: Sequence[Any] = (), outlines: Sequence[Any] = (), **fields: Any
+) -> World:
+    """Return a world in which a tiny robot has measured, among others and obstacles.
+
+    fields: of the scenario, with `pose` that of the robot and `extra` more add-ons.
+    """
+    pose, addons = fields.pop("pose", (0, 0, 0)), [Map(list(outlines)), *fields.pop("extra", ())]
+    carrier = Robot(pose=pose, diameter=0.01, sensors=[sensor], name="carrier")
+    world = World(Scenario(robots=[carrier, *robots], addons=addons, workspace=None, **fields))
+    world.observe()
+    return world
+
+
+def reading(sensor: Any, *arguments: Any, **fields: Any) -> Any:
+    """Return what it has measured."""
+    return getattr(observed(sensor, *arguments, **fields).robots[0].sense, sensor.key)
+
+
+def crowd(
+    count: int, command: Sequence[float], sampling_time: float, seed: int, **robot: Any
+) -> World:
+    """Return a world after 10 s in which robots far from each other have all done the same."""
+    robots = [Robot(pose=(20.0 * (i % 50), 20.0 * (i // 50), 0), **robot) for i in range(count)]
+    fields = {"sampling_time": sampling_time, "stop_time": 10.0, "physics": "ideal"}
+    world = World(Scenario(robots=robots, workspace=None, **fields), seed=seed)
+    while not world.over:
+        world.step(np.tile(np.reshape(command, (-1, 1)), count))
+    return world
+
+
+def like(values: np.ndarray, mean: float, deviation: float) -> None:
+    """Assert that values have this mean and standard deviation, to four of their own."""
+    assert values.mean() == pytest.approx(mean, abs=4 * deviation / sqrt(values.size))
+    assert values.std() == pytest.approx(deviation, rel=4 / sqrt(2 * values.size))
 
 
 def drive(world: World, command: Any, seconds: float) -> np.ndarray:

@@ -14,7 +14,7 @@ import threading
 import time
 from collections.abc import Callable
 from contextlib import suppress
-from math import inf
+from itertools import pairwise
 from pathlib import Path
 from types import FrameType
 from typing import Any
@@ -28,7 +28,7 @@ GRACE = 2.0
 ENDING = signal.SIGINT, signal.SIGTERM, getattr(signal, "SIGHUP", signal.SIGTERM)
 """Ctrl-C, `kill`, and the end of the terminal, which Windows does not tell."""
 
-_raised = -inf
+_raised = float("-inf")
 """The time at which KeyboardInterrupt was last raised."""
 
 
@@ -39,8 +39,8 @@ def leave(number: int, frame: FrameType | None) -> None:  # noqa: ARG001
     os._exit(INTERRUPTED)
 
 
-OURS = sys.orig_argv[1:3] == ["-m", "mars2d"] or Path([*sys.orig_argv, ""][1]).stem == "mars2d"
-"""Whether this process was started as ``mars2d`` or ``python -m mars2d``."""
+OURS = ("-m", "mars2d") in pairwise(sys.orig_argv) or Path([*sys.argv, ""][0]).stem == "mars2d"
+"""Whether this process was started as ``mars2d`` or ``python -m mars2d``, with options or not."""
 
 if OURS and threading.current_thread() is threading.main_thread():
     for each in ENDING:
@@ -89,7 +89,7 @@ class interrupts:  # noqa: N801 - it is used as a function
                     signal.signal(number, self)
             if not any(isinstance(each, interrupts) for each in self.before.values()):
                 global _raised  # noqa: PLW0603 - a process has one Ctrl-C
-                _raised = -inf
+                _raised = float("-inf")
         return self._check
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:

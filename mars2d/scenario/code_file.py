@@ -177,21 +177,21 @@ def seen_from(file: str, folder: Path) -> str:
 
 
 HEADINGS = re.compile(
-    r"(?:^|(?<=[.?!)] ))(Question|Setting|Law(?: \([^)]*\))?|Prediction|Measured|Try|Play|Source): "
+    r"(?m)(?:^|(?<=[.?!)] ))"
+    r"(Question|Setting|Law(?: \([^)]*\))?|Prediction|Measured|Try|Play|Source): "
 )
 """The words with which parts of a docstring begin."""
 
 
 def lesson_of(path: Path | None) -> list[tuple[str, str]]:
-    """Return the parts of the docstring of a Python file: headings and texts.
+    """Return the parts of the docstring of a Python file: headings and texts, tables in lines.
 
     >>> HEADINGS.split("Question: how far? Source: a book.")
     ['', 'Question', 'how far? ', 'Source', 'a book.']
     """
     if path is None or path.suffix != ".py":
         return []
-    text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
-    first, *rest = HEADINGS.split(" ".join(text.split()))
-    named = zip(rest[::2], rest[1::2], strict=True)
-    parts = [(heading, text.strip()) for heading, text in (("", first), *named)]
+    first, *rest = HEADINGS.split(ast.get_docstring(ast.parse(path.read_text("utf-8"))) or "")
+    named = (("", first), *zip(rest[::2], rest[1::2], strict=True))
+    parts = [(heading, re.sub(r"\n(?!.*\S  )", " ", text.strip())) for heading, text in named]
     return [(heading, text[:1].upper() + text[1:]) for heading, text in parts]

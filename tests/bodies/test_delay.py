@@ -7,7 +7,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mars2d import Scenario, World
 from mars2d.bodies.delay import DelayLine
 
 
@@ -28,33 +27,3 @@ def test_what_is_in_effect_was_issued_a_delay_ago(delay, sampling_time, count):
             issued = np.floor((middle - delay) / sampling_time)
             assert command[0, 0] == max(issued + 1, 0)
             time += duration
-
-
-@given(
-    delays=st.lists(st.floats(0, 3), min_size=1, max_size=6),
-    sampling_time=st.floats(0.01, 2),
-    count=st.integers(1, 30),
-)
-def test_each_robot_has_a_delay_of_its_own(delays, sampling_time, count):
-    team = DelayLine(np.array(delays), sampling_time, np.zeros((2, len(delays))))
-    alone = [DelayLine(delay, sampling_time, np.zeros((2, 1))) for delay in delays]
-    for k in range(count):
-        pieces = team.send(np.full((2, len(delays)), float(k + 1)))
-        ends = np.cumsum([duration for duration, _ in pieces])
-        assert ends[-1] == pytest.approx(sampling_time)
-        assert all(duration > 0 for duration, _ in pieces)
-        for i, line in enumerate(alone):
-            start = 0.0
-            for duration, command in line.send(np.full((2, 1), float(k + 1))):
-                middle = start + duration / 2
-                now = pieces[int(np.searchsorted(ends, middle))][1]
-                if duration > 1e-6 * sampling_time:
-                    assert now[0, i] == command[0, 0]
-                start += duration
-
-
-def test_command_time_says_when_a_command_takes_effect():
-    world = World(Scenario(command_delay=0.25, sampling_time=0.1, stop_time=1))
-    while not world.over:
-        world.step()
-    assert np.array_equal(world.record.command_time, world.record.time + 0.25)

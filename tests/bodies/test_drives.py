@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import atan, cos, pi, sin, sqrt, tan
+from math import atan, pi, sqrt, tan
 
 import numpy as np
 import pytest
@@ -24,6 +24,9 @@ from mars2d import (
     World,
 )
 from tests.cases import each_case
+from tests.worlds import arc
+
+START = (0.0, 0.0, 0.0)
 
 
 def free(*drives: Drive, **fields) -> Scenario:
@@ -41,18 +44,6 @@ def driven(scenario: Scenario, commands, seed: int = 0) -> mars2d.Record:
     return world.record
 
 
-def arc(v: float, omega: float, time: float, pose=(0.0, 0.0, 0.0)) -> np.ndarray:
-    """Return the pose of a unicycle after `time` seconds."""
-    x, y, theta = pose
-    end = theta + omega * time
-    if omega == 0:
-        return np.array([x + v * time * cos(theta), y + v * time * sin(theta), theta])
-    radius = v / omega
-    return np.array(
-        [x + radius * (sin(end) - sin(theta)), y - radius * (cos(end) - cos(theta)), end]
-    )
-
-
 # -- motion ---------------------------------------------------------------------------------
 
 speeds = st.floats(-1, 1)
@@ -64,7 +55,7 @@ def test_wheels_that_turn_bring_a_differential_drive_along_its_arc(left, right, 
     drive = Differential(wheel_radius=radius, wheel_semiaxis=axis, max_linear_speed=2)
     record = driven(free(drive, sampling_time=dt), [(left, right)] * 20)
     v, omega = radius * (right + left) / 2, radius * (right - left) / (2 * axis)
-    assert record.pose[-1, :, 0] == pytest.approx(arc(v, omega, 20 * dt), abs=1e-9)
+    assert record.pose[-1, :, 0] == pytest.approx(arc(START, v, omega, 20 * dt), abs=1e-9)
 
 
 @given(v=speeds, omega=speeds, radius=st.floats(0.01, 1), dt=periods)
@@ -72,7 +63,7 @@ def test_commanded_by_v_and_omega_it_is_a_unicycle_whatever_its_wheels(v, omega,
     twist = Differential(command="twist", wheel_radius=radius, max_linear_speed=2)
     drives = [twist, Unicycle(max_linear_speed=2)]
     record = driven(free(*drives, sampling_time=dt), [(v, omega)] * 20)
-    assert record.pose[-1, :, 0] == pytest.approx(arc(v, omega, 20 * dt), abs=1e-9)
+    assert record.pose[-1, :, 0] == pytest.approx(arc(START, v, omega, 20 * dt), abs=1e-9)
     shifted = record.pose[:, :, 1] - np.array([100.0, 0, 0])
     assert np.abs(record.pose[:, :, 0] - shifted).max() < 1e-9
 
@@ -81,7 +72,7 @@ def test_commanded_by_v_and_omega_it_is_a_unicycle_whatever_its_wheels(v, omega,
 def test_a_car_goes_round_a_circle_of_wheelbase_over_tan_delta(v, delta, wheelbase, dt):
     drive = Car(wheelbase=wheelbase, max_steering=1.3, max_linear_speed=2)
     pose = driven(free(drive, sampling_time=dt), [(v, delta)] * 20).pose[:, :, 0]
-    assert pose[-1] == pytest.approx(arc(v, v * tan(delta) / wheelbase, 20 * dt), abs=1e-9)
+    assert pose[-1] == pytest.approx(arc(START, v, v * tan(delta) / wheelbase, 20 * dt), abs=1e-9)
     if abs(delta) > 0.01:
         radius = wheelbase / tan(delta)
         assert np.hypot(pose[:, 0], pose[:, 1] - radius) == pytest.approx(abs(radius), abs=1e-9)

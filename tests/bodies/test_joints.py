@@ -82,18 +82,6 @@ def test_a_jerk_on_a_rope_is_inelastic_and_keeps_the_momentum():
     assert momentum == pytest.approx(-1, abs=1e-9)
 
 
-def test_the_stronger_of_two_robots_at_a_rope_wins_by_the_difference_of_their_forces():
-    robots = [
-        Robot(pose=(-1, 0, pi), drive=Unicycle(max_force=0.5)),
-        Robot(pose=(1, 0, 0), drive=Unicycle(max_force=0.6), mass=2),
-    ]
-    world = endless(robots, [], [Rope(a="robot0", b="robot1")])
-    drive(world, [[0.5, 0.5], [0, 0]], 2)
-    before = world.velocity[0, 1]
-    drive(world, [[0.5, 0.5], [0, 0]], 2)
-    assert (world.velocity[0, 1] - before) / 2 == pytest.approx(0.1 / 3, rel=1e-3)
-
-
 # -- rods -----------------------------------------------------------------------------------
 
 

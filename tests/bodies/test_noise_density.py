@@ -11,38 +11,21 @@ from math import cos, exp, sin, sqrt, tan
 import numpy as np
 import pytest
 
-from mars2d import Car, Differential, Drive, Holonomic, Robot, Scenario, Unicycle, World
+from mars2d import Car, Drive, Holonomic, Robot, Scenario, Unicycle, World
 from tests.cases import each_case
+from tests.worlds import crowd, like
 
 N = 800
-SECONDS = 10.0
 PERIODS = [0.4, 0.13]
 
 MEAN = 4 / sqrt(N)
-"""Four standard deviations of an estimated mean, in standard deviations; of a correlation, too."""
-
-SPREAD = 4 / sqrt(2 * N)
-"""Four standard deviations of an estimated standard deviation, relatively."""
+"""Four standard deviations of an estimated correlation."""
 
 
-def crowd(drive: Drive, command, sampling_time: float) -> tuple[np.ndarray, float]:
+def come(drive: Drive, command, sampling_time: float) -> tuple[np.ndarray, float]:
     """Return how far N robots have come after ten seconds (3, N), and the time, seconds."""
-    robots = [Robot(pose=(20.0 * (i % 50), 20.0 * (i // 50), 0), drive=drive) for i in range(N)]
-    scenario = Scenario(
-        robots=robots, physics="ideal", workspace=None,
-        sampling_time=sampling_time, stop_time=SECONDS,
-    )  # fmt: skip
-    world = World(scenario, seed=7)
-    start, commands = world.pose.copy(), np.tile(np.reshape(command, (2, 1)), N)
-    while not world.over:
-        world.step(commands)
-    return world.pose - start, world.time
-
-
-def like(values: np.ndarray, mean: float, deviation: float) -> None:
-    """Assert that values (N,) have this mean and standard deviation."""
-    assert values.mean() == pytest.approx(mean, abs=MEAN * deviation)
-    assert values.std() == pytest.approx(deviation, rel=SPREAD)
+    world = crowd(N, command, sampling_time, seed=7, drive=drive)
+    return world.pose - world.scenario.initial_pose, world.time
 
 
 def strays(pose: np.ndarray, time: float, speed: float, along: float, turn: float) -> None:
@@ -64,28 +47,15 @@ def strays(pose: np.ndarray, time: float, speed: float, along: float, turn: floa
 @each_case("sampling_time", PERIODS)
 def test_a_unicycle_that_drives_straight_strays_alike_at_any_sampling_time(sampling_time):
     v, b, s = 0.37, 0.13, 0.0071
-    pose, time = crowd(Unicycle(noise=s, wheel_semiaxis=b), (v, 0.0), sampling_time)
+    pose, time = come(Unicycle(noise=s, wheel_semiaxis=b), (v, 0.0), sampling_time)
     strays(pose, time, v, s * v / sqrt(2), s * v / (b * sqrt(2)))
-
-
-@pytest.mark.slow
-@each_case("sampling_time", PERIODS)
-@each_case("command", ["wheels", "twist"])
-def test_each_wheel_of_a_differential_drive_has_a_density_of_its_own(command, sampling_time):
-    b, r, s = 0.17, 0.06, 0.021
-    left, right = 1.9 * r, 5.3 * r
-    drive = Differential(noise=s, wheel_semiaxis=b, wheel_radius=r, command=command)
-    asked = (1.9, 5.3) if command == "wheels" else ((left + right) / 2, (right - left) / (2 * b))
-    pose, time = crowd(drive, asked, sampling_time)
-    omega = (right - left) / (2 * b)
-    like(pose[2], omega * time, s * sqrt((left**2 + right**2) * time) / (2 * b))
 
 
 @each_case("sampling_time", PERIODS)
 def test_a_holonomic_robot_strays_alike_in_all_directions(sampling_time):
     speed, angle, s = 0.31, 0.6, 0.11
     velocity = (speed * cos(angle), speed * sin(angle))
-    pose, time = crowd(Holonomic(noise=s), velocity, sampling_time)
+    pose, time = come(Holonomic(noise=s), velocity, sampling_time)
     for axis in (0, 1):
         like(pose[axis], velocity[axis] * time, s * speed * sqrt(time))
     assert np.corrcoef(pose[:2])[0, 1] == pytest.approx(0, abs=MEAN)
@@ -94,20 +64,11 @@ def test_a_holonomic_robot_strays_alike_in_all_directions(sampling_time):
 
 @pytest.mark.slow
 @each_case("sampling_time", PERIODS)
-def test_a_car_that_drives_straight_strays_alike_at_any_sampling_time(sampling_time):
-    v, s, most, base = 0.41, 0.008, 0.5, 0.23
-    drive = Car(noise=s, max_steering=most, wheelbase=base)
-    pose, time = crowd(drive, (v, 0.0), sampling_time)
-    strays(pose, time, v, s * v, s * v * most / base)
-
-
-@pytest.mark.slow
-@each_case("sampling_time", PERIODS)
 @each_case("delta", [0.3, 0.7])  # 0.7: the wheels are at their bound
 def test_a_car_on_a_bend_turns_as_far_as_it_is_told_with_the_noise_of_both(delta, sampling_time):
     v, s, most, base = 0.41, 0.1, 0.7, 0.23
     drive = Car(noise=s, max_steering=most, wheelbase=base)
-    pose, time = crowd(drive, (v, delta), sampling_time)
+    pose, time = come(drive, (v, delta), sampling_time)
     deviation = s * v / base * sqrt((tan(delta) ** 2 + most**2) * time)
     like(pose[2], v * tan(delta) / base * time, deviation)
 

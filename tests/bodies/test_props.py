@@ -71,49 +71,25 @@ def test_props_glide_exactly_while_others_near_them_push_and_cause_substeps(samp
 # -- pushing --------------------------------------------------------------------------------
 
 
-def moves(robots, prop: Prop) -> bool:
-    """Whether robots that come to touch a prop slowly keep it moving.
+def moves(robot: Robot, prop: Prop) -> bool:
+    """Whether a robot that comes to touch a prop slowly keeps it moving.
 
     What is too heavy coasts for less than 0.4 s after the impact, for a hundredth more than can be
     overcome.
     """
-    world = endless(robots, [prop])
-    command = [[0.02] * len(robots), [0] * len(robots)]
-    drive(world, command, 7.5)
+    world = endless([robot], [prop])
+    drive(world, [[0.02], [0]], 7.5)
     before = world.prop_pose[0, 0]
-    drive(world, command, 0.5)
+    drive(world, [[0.02], [0]], 0.5)
     return bool(world.prop_pose[0, 0] - before > 0.002)
-
-
-def threshold(robots, prop: Prop, low: float, high: float) -> float:
-    """The coefficient of friction up to which a prop moves, within half a percent."""
-    assert moves(robots, prop.replace(ground_friction=low))
-    assert not moves(robots, prop.replace(ground_friction=high))
-    while high - low > 0.01 * low:
-        middle = (low + high) / 2
-        if moves(robots, prop.replace(ground_friction=middle)):
-            low = middle
-        else:
-            high = middle
-    return (low + high) / 2
 
 
 @each_case(("force", "prop", "x"), [(5, Box(mass=2.5), -0.351), (4, Solid(ELL), -0.371)])
 def test_a_prop_moves_up_to_the_friction_that_the_force_overcomes(force, prop, x):
     robot = Robot(pose=(x, 0, 0), drive=Unicycle(max_force=force), friction=0)
     mu = force / (prop.inertia.mass * GRAVITY)
-    assert threshold([robot], prop, 0.8 * mu, 1.3 * mu) == pytest.approx(mu, rel=0.02)
-
-
-@each_case("count", [2, 3])
-def test_the_forces_of_several_robots_on_one_box_add_up(count):
-    robots = [
-        Robot(pose=(-0.351, 0.35 * (i - (count - 1) / 2), 0), drive=Unicycle(max_force=2))
-        for i in range(count)
-    ]
-    mu = count * 2 / GRAVITY
-    found = threshold(robots, Box(width=1.2), 0.8 * mu, 1.3 * mu)
-    assert found == pytest.approx(mu, rel=0.02)
+    assert moves(robot, prop.replace(ground_friction=0.98 * mu))
+    assert not moves(robot, prop.replace(ground_friction=1.02 * mu))
 
 
 @each_case(

@@ -101,14 +101,6 @@ def test_what_hits_within_a_step_hits_with_the_speed_of_the_ramp():
     assert speed == pytest.approx((2 * A * gap) ** 0.5, abs=A * sampling_time / 8)
 
 
-def test_wheels_of_one_robot_that_arrive_at_other_times_turn_it_by_their_difference():
-    robot = Robot(drive=Unicycle(max_acceleration=A, wheel_semiaxis=0.1))
-    world = endless([robot], sampling_time=0.25)
-    drive(world, [[0.2], [1.0]], 2.0)  # the rims go at 0.1 and 0.3 m/s
-    left, right = (v * 2.0 - v * v / (2 * A) for v in (0.1, 0.3))
-    assert world.pose[2, 0] == pytest.approx((right - left) / 0.2, abs=1e-9)
-
-
 def test_odometry_and_gyroscope_know_of_the_ramp():
     robot = Robot(drive=Unicycle(max_acceleration=0.3), sensors=[Odometry(), Imu()])
     world = endless([robot], sampling_time=0.2)

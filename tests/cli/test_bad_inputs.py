@@ -17,9 +17,6 @@ from tests.cases import each_case
 RUN = "run random_walk --headless --stop-time 2"
 
 COMMANDS = [
-    ("rnu random_walk", "'rnu'", "did you mean 'run'?"),
-    ("nosuch", "'nosuch'", "known: check, compare"),
-    ("random_walk", "write mars2d run random_walk"),
     ("random_wal", "did you mean 'run random_walk'?"),
     ("replay run.npz --seed 3", "--seed 3 (see mars2d replay"),
     ("doctor --completion nushell", "nushell", "powershell"),
@@ -55,7 +52,6 @@ COMMANDS = [
     ("compare", "EXPERIMENT"),
     ("replay random_walk", "random_walk"),
     ("check plan.dwg", "plan.dwg", ".py", ".dxf"),
-    ("paper", "OUT"),
     ("paper /dev/null --only 2", "/dev/null", "folder"),
     ("paper mine --only 2", "mine", "notes.txt"),
     ("sweep", "EXPERIMENT"),

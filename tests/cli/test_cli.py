@@ -2,7 +2,6 @@
 
 import argparse
 import json
-import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -15,15 +14,7 @@ from mars2d import Scenario, World
 from mars2d.cli import command_line as cli
 from mars2d.cli.outputs import run_and_save
 from tests.cases import each_case
-from tests.processes import PATIENCE, mars, wait_until
-
-
-@pytest.fixture
-def typed(tmp_path, monkeypatch, capsys):
-    """Return a function that runs a command in an empty folder: exit code, stdout, stderr."""
-    monkeypatch.chdir(tmp_path)
-    return lambda *words: (cli.main([*map(str, words)]), *capsys.readouterr())
-
+from tests.processes import mars
 
 HEAD = "import numpy as np\nfrom mars2d import *\nfrom mars2d.addons import Map\n"
 
@@ -88,14 +79,6 @@ def test_check_describes_an_experiment_and_tries_its_laws(typed):
         assert word in out
 
 
-@pytest.mark.slow
-def test_doctor_finds_the_installation_sound(tmp_path):
-    done = mars("doctor", cwd=tmp_path)  # a process of its own, as its standard files are looked at
-    assert done.returncode == 0, done.stdout
-    assert "pymunk" in done.stdout
-    assert "NO " not in done.stdout
-
-
 def test_list_names_every_part_with_one_line(typed):
     _, out, _ = typed("list")
     for name in ("random_walk", "Unicycle", "Holonomic", "Proximity", "Map"):
@@ -113,31 +96,6 @@ def test_what_was_recorded_before_a_law_failed_is_kept(typed):
     assert len(record) == 10
     assert "ZeroDivisionError" in record.over_message
     assert np.isfinite(record.pose).all()
-
-
-def test_ctrl_c_keeps_the_record_and_exits_130(tmp_path):
-    import signal
-
-    (tmp_path / "long.py").write_text(
-        HEAD + "scenario = Scenario(stop_time=1e6)\n"
-        "def control(world):\n"
-        "    if world.iteration == 20:\n        open('going', 'w').close()\n"
-        "    return 0, 0\n"
-    )
-    process = subprocess.Popen(
-        [sys.executable, "-m", "mars2d", "run", "long.py", "--headless", "--record", "kept.npz"],
-        cwd=tmp_path, stderr=subprocess.PIPE, stdout=subprocess.PIPE,
-    )  # fmt: skip
-    try:
-        wait_until((tmp_path / "going").exists, process)
-        process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=PATIENCE)
-    finally:
-        process.kill()  # whatever went wrong, nothing goes on for ever
-    assert process.returncode == 130, errors
-    record = mars2d.load(tmp_path / "kept.npz")
-    assert len(record) > 10
-    assert "Ctrl-C" in record.over_message
 
 
 def test_a_record_with_parts_of_the_users_own_can_be_drawn_and_run_again(tmp_path, capsys):

@@ -9,7 +9,6 @@ import pytest
 from PIL import Image
 
 import mars2d
-from mars2d.cli import command_line as cli
 
 HEAD_ON = """
 from math import pi
@@ -40,19 +39,6 @@ def control(world):
 """
 
 
-@pytest.fixture
-def compare(tmp_path, monkeypatch, capsys):
-    """Run the verb in an empty folder; return exit code, stdout and stderr."""
-    monkeypatch.chdir(tmp_path)
-
-    def run(*arguments):
-        capsys.readouterr()
-        code = cli.main(["compare", *map(str, arguments)])
-        return code, *capsys.readouterr()
-
-    return run
-
-
 def written(code, name="walk.py"):
     Path(name).write_text(code, encoding="utf-8")
     return name
@@ -60,8 +46,8 @@ def written(code, name="walk.py"):
 
 @pytest.mark.slow
 @pytest.mark.nightly
-def test_without_more_it_makes_a_picture_and_a_film_and_says_where(compare):
-    code, out, err = compare(written(HEAD_ON))
+def test_without_more_it_makes_a_picture_and_a_film_and_says_where(typed):
+    code, out, err = typed("compare", written(HEAD_ON))
     assert (code, err) == (0, "")
     paths = [line.split()[1] for line in out.splitlines() if "mars2d_compare" in line]
     assert len(paths) == 2
@@ -73,8 +59,8 @@ def test_without_more_it_makes_a_picture_and_a_film_and_says_where(compare):
         assert film.n_frames > 50
 
 
-def test_it_prints_a_table_of_the_three_runs(compare):
-    code, out, _ = compare(written(HEAD_ON), "--figure", "a.png")
+def test_it_prints_a_table_of_the_three_runs(typed):
+    code, out, _ = typed("compare", written(HEAD_ON), "--figure", "a.png")
     assert code == 0
     title, head, *rows, last = out.splitlines()
     assert title == "Head on, seed 0"
@@ -87,9 +73,9 @@ def test_it_prints_a_table_of_the_three_runs(compare):
     assert not Path("mars2d_compare").exists()
 
 
-def test_the_runs_are_those_of_each_physics_alone(compare):
+def test_the_runs_are_those_of_each_physics_alone(typed):
     name = written(HEAD_ON)
-    _, out, _ = compare(name, "--seed", 7, "--figure", "a.png")
+    _, out, _ = typed("compare", name, "--seed", 7, "--figure", "a.png")
     _, _, *rows, _ = out.splitlines()
     modes = [row.split()[0] for row in rows]
     records = [mars2d.run(name, seed=7, options={"physics": mode}) for mode in modes]
@@ -100,10 +86,10 @@ def test_the_runs_are_those_of_each_physics_alone(compare):
         assert f"{round(apart.mean(), 6):.3g} m" in row
 
 
-def test_options_hold_for_all_runs(compare):
-    code, out, _ = compare(
-        "follow_the_leader", "--stop-time", 2, "--set", "followers=2", "--set", "sampling_time=0.5",
-        "--figure", "a.svg", "--video", "a.gif", "--speed", 4,
+def test_options_hold_for_all_runs(typed):
+    code, out, _ = typed(
+        "compare", "follow_the_leader", "--stop-time", 2, "--set", "followers=2",
+        "--set", "sampling_time=0.5", "--figure", "a.svg", "--video", "a.gif", "--speed", 4,
     )  # fmt: skip
     assert code == 0
     assert [line.split()[1] for line in out.splitlines()[2:5]] == ["4", "4", "4"]
@@ -116,8 +102,8 @@ def test_options_hold_for_all_runs(compare):
     assert duration == pytest.approx(500, abs=90)
 
 
-def test_a_law_that_fails_says_with_which_physics(compare):
-    code, out, err = compare(written(FAILS_IN_IDEAL), "--figure", "a.png")
+def test_a_law_that_fails_says_with_which_physics(typed):
+    code, out, err = typed("compare", written(FAILS_IN_IDEAL), "--figure", "a.png")
     assert (code, out) == (2, "")
     assert err.startswith("mars2d: physics = 'ideal': walk.py, line 9")
     assert "too ideal" in err

@@ -10,24 +10,12 @@ import pytest
 from mars2d.scenario import save_scenario
 from mars2d.scenario.experiment import open_experiment
 from mars2d.world.record import load
-from tests.processes import PATIENCE, bare_environment
+from tests.processes import PATIENCE, bare_environment, begun, mars
 from tests.window.person import ROOM
 
 pytestmark = pytest.mark.slow
 
 ROOT = Path(__file__).parents[2]
-
-
-def mars(folder, *arguments, **environment):
-    """Start a command line in a folder."""
-    return subprocess.Popen(
-        [sys.executable, "-m", "mars2d", *arguments],
-        cwd=folder,
-        env=bare_environment(PYTHONPATH=str(ROOT), **environment),
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
 
 
 @pytest.fixture(scope="module")
@@ -36,9 +24,7 @@ def folder(tmp_path_factory):
     (folder / "room.py").write_text(ROOM)
     save_scenario(open_experiment(folder / "room.py").scenario, folder / "drawn.toml")
     short = ["run", "room.py", "--headless", "--stop-time", "5", "--record", "past.npz"]
-    process = mars(folder, *short)
-    process.communicate(timeout=PATIENCE)
-    assert process.returncode == 0
+    assert mars(*short, cwd=folder).returncode == 0
     return folder
 
 
@@ -99,7 +85,6 @@ def test_a_run_whose_terminal_is_closed_is_saved(folder):
 
 
 def test_whoever_reads_may_stop_reading(folder):
-    process = mars(folder, "list")
-    process.stdout.close()
-    assert (process.stderr.read(), process.wait(PATIENCE)) == ("", 0)
-    process.stderr.close()
+    with begun("list", cwd=folder) as process:
+        process.stdout.close()
+        assert (process.stderr.read(), process.wait()) == ("", 0)

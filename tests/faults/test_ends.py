@@ -10,7 +10,7 @@ import pytest
 
 import mars2d
 from mars2d.study.table import Table
-from tests.processes import PATIENCE, mars, wait_until
+from tests.processes import PATIENCE, begun, mars, wait_until
 
 pytestmark = pytest.mark.slow
 
@@ -91,13 +91,10 @@ def test_what_a_law_starts_or_shows_does_not_hold_the_command(here):
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
 def test_ctrl_c_and_sigterm_end_a_run_and_save_it(here):
     for number in (signal.SIGINT, signal.SIGTERM):
-        process = subprocess.Popen(
-            [sys.executable, "-m", "mars2d", "run", "law.py", "--headless", "--record", "kept.npz"],
-            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-        )  # fmt: skip
-        wait_until((here / "going").exists, process)
-        process.send_signal(number)
-        _, errors = process.communicate(timeout=PATIENCE)
+        with begun("run", "law.py", "--headless", "--record", "kept.npz") as process:
+            wait_until((here / "going").exists, process)
+            process.send_signal(number)
+            _, errors = process.communicate()
         assert (process.returncode, "Traceback" in errors) == (130, False), errors
         assert errors.endswith("is in kept.npz\nmars2d: interrupted\n")
         record = mars2d.load("kept.npz")

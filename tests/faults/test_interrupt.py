@@ -10,7 +10,7 @@ import pytest
 
 import mars2d
 from tests.faults.test_disk import LAW
-from tests.processes import PATIENCE, wait_until
+from tests.processes import PATIENCE, begun, wait_until
 
 pytestmark = [
     pytest.mark.slow,
@@ -20,14 +20,11 @@ pytestmark = [
 
 @pytest.mark.skipif(sys.platform != "linux", reason="libraries are looked for in /proc")
 def test_ctrl_c_while_the_libraries_are_imported_is_one_line() -> None:
-    process = subprocess.Popen(
-        [sys.executable, "-m", "mars2d", "list"],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-    )  # fmt: skip
-    maps = Path(f"/proc/{process.pid}/maps")
-    wait_until(lambda: "numpy" in maps.read_text(), process)
-    process.send_signal(2)
-    _, errors = process.communicate(timeout=PATIENCE)
+    with begun("list") as process:
+        maps = Path(f"/proc/{process.pid}/maps")
+        wait_until(lambda: "numpy" in maps.read_text(), process)
+        process.send_signal(2)
+        _, errors = process.communicate()
     assert (process.returncode, errors) in ((130, "mars2d: interrupted\n"), (0, ""))
 
 

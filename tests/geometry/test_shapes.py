@@ -191,20 +191,6 @@ def test_a_rectangle_has_the_textbooks_moment_and_lever(a, b):
     assert shape.bound[1] == pytest.approx(d / 2, rel=1e-12)
 
 
-@each_case("name", KNOWN)
-def test_the_moments_of_the_pieces_make_that_of_the_whole(name):
-    shape = Polygon(KNOWN[name][0]).moved(0.7, -0.3)
-    masses = [_area(piece.vertices) for piece in shape.pieces]
-    moments = [
-        pymunk.moment_for_poly(mass, piece.vertices)
-        for mass, piece in zip(masses, shape.pieces, strict=True)
-    ]
-    assert sum(masses) == pytest.approx(shape.area, rel=1e-12)
-    assert sum(moments) / shape.area == pytest.approx(shape.plate.moment_per_mass, rel=1e-12)
-    middle = shapely.Polygon(shape.outline).centroid
-    assert shape.centroid == pytest.approx((middle.x, middle.y), abs=1e-12)
-
-
 def _grid(shape, count):
     """Points inside a shape on a grid of `count` a side, askew to its sides; a cell's area."""
     (x, y), radius = shape.bound
@@ -273,12 +259,3 @@ def test_a_moved_shape_is_the_same_shape_elsewhere(name):
     assert moved.bound[1] == pytest.approx(shape.bound[1], rel=1e-11)
     about_centroid = shape.plate.moment_per_mass - x * x - y * y
     assert moved.plate.moment_per_mass - u * u - v * v == pytest.approx(about_centroid, rel=1e-9)
-
-
-def test_what_overlaps_counts_once():
-    twice = Compound([Disc(1.0), Disc(1.0)])
-    assert twice.area == pytest.approx(pi / 4, rel=1e-11)
-    assert twice.plate.moment_per_mass == pytest.approx(1 / 8, rel=1e-11)
-    assert twice.plate.lever == pytest.approx(1 / 3, rel=1e-11)
-    square = Compound([Polygon(SQUARE), Polygon(SQUARE).moved(0.5, 0)])
-    assert square.area == pytest.approx(1.5, rel=1e-14)

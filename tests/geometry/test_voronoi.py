@@ -173,20 +173,6 @@ def test_the_gradient_of_the_cost_is_twice_mass_times_way_from_the_centroid(regi
             assert measured == pytest.approx(wanted[axis, i], abs=2e-5)
 
 
-@each_case("phi", [None, bump])
-@each_case("region", REGIONS)
-def test_the_cost_never_rises_when_points_walk_to_their_centroids(region, phi):
-    points = np.random.default_rng(7).uniform(0.1, 1.2, (2, 8))
-    costs = []
-    for _ in range(60):
-        found = Tessellation(points, REGIONS[region], phi)
-        costs.append(found.cost)
-        points = points + 0.5 * (found.centroids - points)
-    assert max(np.diff(costs)) <= (1e-12 if phi is None else 1e-7) * costs[0]
-    assert costs[-1] < 0.3 * costs[0]
-    assert np.abs(found.gradient).max() < 0.01 * costs[0]
-
-
 def test_a_constant_density_is_as_none_but_for_its_factor():
     points = np.random.default_rng(1).uniform(0, 4, (2, 7))
     plain, tripled = Tessellation(points, HOOK), Tessellation(points, HOOK, lambda x, y: 3.0)

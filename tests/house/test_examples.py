@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import mars2d
+from mars2d.scenario.code_file import lesson_of
 from mars2d.scenario.examples import examples, thumbnail_of
 from tests.cases import each_case
 from tests.house.goldens import SETTINGS, Golden
@@ -92,3 +93,10 @@ def test_random_walk_is_the_papers_algorithm_2():
             else:
                 assert (v, omega) == (0.2, 0.0)
     assert seen.any(axis=0).all()
+
+
+def test_a_lesson_has_each_of_its_parts_and_the_lines_of_its_table():
+    parts = dict(lesson_of(examples()["corner_game"]))
+    assert list(parts) == ["", "Question", "Setting", "Source", "Measured"]
+    assert parts["Question"].endswith("--seed 3")
+    assert parts["Measured"].splitlines()[1].split() == ["away", "corners", "round"]

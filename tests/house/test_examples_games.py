@@ -6,7 +6,6 @@ import pytest
 import mars2d
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import open_module
-from tests.worlds import predicted
 
 pytestmark = [pytest.mark.slow, pytest.mark.nightly]
 
@@ -19,37 +18,6 @@ def bout(red, blue, seed=0):
     return mars2d.run("sumo", seed=seed, options=laws).over_message.partition(" wins")[0]
 
 
-@pytest.mark.parametrize(
-    ("name", "options"),
-    [
-        ("shove_and_spin", {"mu": 0.6, "lever": -0.1}),  # the discs' slip ends
-        ("shove_and_spin", {"e": 1.0, "v": 0.4}),
-        ("tug_of_war", {"blue": 6.3, "tow": 3.0}),
-        ("tug_of_war", {"blue": 7.0}),
-        ("sumo", {"blue": "players/flanker.py"}),
-        ("sumo", {"blue": "players/dodger.py"}),
-    ],
-)
-def test_a_game_agrees_with_its_predictions(name, options):
-    _, predictions = predicted(name, **options)
-    assert predictions
-    assert [p for p in predictions.values() if not p.ok] == []
-
-
-def test_a_blow_beside_the_middle_gives_less_speed_and_more_spin():
-    record, _ = predicted("shove_and_spin")
-    end = np.diff(record.prop_pose[-2:], axis=0)[0]
-    assert end[0, 1] < end[0, 0]
-    assert end[2, 1] > 0.0
-    assert end[2, 0] == 0.0
-
-
-@pytest.mark.parametrize(("blue", "winner"), [(5.0, "red"), (7.0, "blue")])
-def test_the_stronger_team_wins_the_tug_of_war(blue, winner):
-    record, _ = predicted("tug_of_war", blue=blue)
-    assert record.over_message.startswith(f"{winner} wins")
-
-
 def test_no_player_beats_all_others():
     wins = {}
     for one, other in (("pusher", "flanker"), ("flanker", "dodger"), ("dodger", "pusher")):
@@ -60,12 +28,6 @@ def test_no_player_beats_all_others():
     assert wins["pusher", "flanker"] > wins["flanker", "pusher"]
     assert wins["flanker", "dodger"] > wins["dodger", "flanker"]
     assert min(wins["dodger", "pusher"], wins["pusher", "dodger"]) >= 2
-
-
-def test_luck_plays_a_part_and_a_seed_repeats_it():
-    outcomes = {bout("pusher", "dodger", seed) for seed in range(12)}
-    assert outcomes == {"red", "blue"}
-    assert len({mars2d.run("sumo", seed=3).digest for _ in range(2)}) == 1
 
 
 # -- corner_game --------------------------------------------------------------------------------

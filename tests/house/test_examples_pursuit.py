@@ -86,15 +86,6 @@ def test_a_matador_gets_clear_of_each_pass_where_isaacs_says_so(ratio):
         )
 
 
-@pytest.mark.parametrize("reach", [0.8, 0.2, 0.05])
-@pytest.mark.parametrize("start", [0.4, 1.0])
-def test_a_man_on_a_circle_is_eaten_when_the_formula_says(reach, start):
-    _, outcome, predictions = played("lion_and_man", reach=reach, start=start)
-    assert len(outcome.captures) == 1
-    assert len(predictions) == 2
-    assert all(p.ok for p in predictions)
-
-
 def test_besicovitchs_man_gains_as_much_for_each_half_and_one_on_a_circle_less_and_less():
     def time(man, reach):
         options = {"reach": reach, "start": 0.5, "sampling_time": 0.01, "man": f"men/{man}.py"}

@@ -120,13 +120,6 @@ def test_the_model_answer_brings_the_third_by_a_plan_that_is_hardly_longer():
 # -- leader_following -----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("options", [{"radius": 1.5}, {"radius": -2.5}, {"speed": 0.15}])
-def test_the_followers_go_on_circles_that_geometry_tells(options):
-    _, predictions = predicted("leader_following", **options)
-    assert len(predictions) == 8
-    assert [p for p in predictions.values() if not p.ok] == []
-
-
 def test_the_followers_keep_their_places(followed):
     """Distance and bearing of the points ahead of the axles, in the frame of the leader."""
     record, _ = followed

@@ -1,4 +1,4 @@
-"""The pursuits and the herding: what the paper found, and what theory says of it."""
+"""The pursuits of the paper: what it found, and what theory says of it."""
 
 from math import hypot
 
@@ -45,19 +45,9 @@ def test_on_a_straight_way_r_times_mu_plus_cos_phi_grows_by_one_minus_mu_squared
     assert np.median(grown[straight]) == pytest.approx(1 - 0.8**2, abs=3e-3)
 
 
-def test_the_evader_goes_round_the_four_points_and_both_see_positions_only():
-    record, _, _ = played("pursuit_corners", stop_time=200)
-    x, y = record.pose[:, :2, 1].T
-    assert np.maximum(np.abs(x), np.abs(y)).min() == pytest.approx(4.5)
-    corners = {(round(a), round(b)) for a, b in zip(x / 4.5, y / 4.5, strict=True)}
-    assert {(-1, -1), (1, -1), (1, 1), (-1, 1)} <= corners
-    assert {robot.sees for robot in record.scenario.robots} == {"positions"}
-
-
 # -- pursuit_voronoi ----------------------------------------------------------------------------
 
 
-@pytest.mark.nightly
 def test_it_does_so_from_other_starts_too():
     rng = np.random.default_rng(1)
     starts = [at for at in rng.uniform(-4.5, 4.5, (12, 2)) if hypot(*(at + 4.5)) > 2][:4]
@@ -66,7 +56,6 @@ def test_it_does_so_from_other_starts_too():
         assert 45 < outcome.capture_time < 101, record.over_message
 
 
-@pytest.mark.nightly
 def test_it_does_not_at_0_7():
     assert played("pursuit_voronoi", ratio=0.7, stop_time=150)[1].winner == "evader"
 
@@ -106,12 +95,3 @@ def test_the_rate_of_a_cells_area_is_that_of_the_formula():
             rate += part * (to[:, 2] @ velocity[:, 2] - to[:, i] @ velocity[:, i])
         later, sooner = (Tessellation(at + s * h * velocity, region).areas[2] for s in (1, -1))
         assert (later - sooner) / (2 * h) == pytest.approx(rate, abs=1e-5)
-
-
-# -- herding ------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("start", range(1, 9))
-def test_the_dog_brings_all_sheep_in(start):
-    _, _, predictions = played("herding", seed=start, start=start)
-    assert [p.ok for p in predictions] == [True, True]

@@ -30,17 +30,7 @@ def rows(section: str) -> dict[str, float]:
     return {match["what"]: float(match["predicted"]) for match in found}
 
 
-LONG = {"friction_threshold"}
-"""Facts that take seconds to measure: `pytest -m nightly`."""
-
-
-@pytest.mark.parametrize(
-    "fact",
-    [
-        pytest.param(f, id=f.__name__, marks=[pytest.mark.nightly] if f.__name__ in LONG else [])
-        for f in make_theory.FACTS
-    ],
-)
+@pytest.mark.parametrize("fact", make_theory.FACTS)
 def test_a_fact_of_the_page_holds(fact):
     stated = rows("The physics")
     predictions = list(fact())
@@ -50,7 +40,6 @@ def test_a_fact_of_the_page_holds(fact):
         assert stated[prediction.name] == pytest.approx(prediction.predicted, rel=1e-4, abs=1e-12)
 
 
-@pytest.mark.nightly
 def test_what_examples_say_of_themselves_holds_and_one_of_each_is_on_the_page():
     stated = rows("The examples")
     measured = make_theory.of_examples()

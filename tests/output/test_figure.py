@@ -243,6 +243,12 @@ def test_snapshots_show_the_paths_until_each_time(record):
     assert [ax.get_legend() is not None for ax in figure.axes] == [False, False, True]
 
 
+@each_case("count, cols", [(1, 1), (2, 2), (3, 3), (4, 2), (5, 3), (6, 3), (8, 4), (9, 3), (12, 4)])
+def test_snapshots_are_in_so_many_columns_that_each_can_be_read(record, count, cols):
+    figure = plot_snapshots(record, np.arange(count) / 10)
+    assert len({ax.get_position().x0 for ax in figure.axes}) == cols
+
+
 @each_case("time, named", [(8.1, "8.1 s"), (-1, "-1 s"), (np.nan, "nan s")])
 def test_a_time_outside_of_the_record_is_refused(record, time, named):
     with pytest.raises(InputError, match=rf"{named} is outside of the record.* 0 to 8 s"):

@@ -46,7 +46,7 @@ def digest(scenario: Scenario, steps: int = STEPS) -> str:
     world, rng = World(scenario, seed=1), np.random.default_rng(1)
     while not world.over and world.iteration < steps:
         if world.iteration % 10 == 0:
-            command = rng.uniform(-0.5, 0.5, (2, len(scenario.robots)))
+            command = rng.uniform(-0.5, 0.5, world.command.shape)
         world.step(command)
     return world.record.digest
 

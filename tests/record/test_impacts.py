@@ -9,6 +9,7 @@ import mars2d
 from mars2d import InputError, Robot, Scenario
 from mars2d.addons import Map
 from mars2d.bodies import Ball, Box
+from mars2d.core.materials import GRAVITY
 from tests.cases import each_case
 
 STEPS = (0.5, 0.1, 0.02, 0.005)
@@ -36,7 +37,7 @@ def test_two_discs_part_by_restitution_and_coulombs_friction(offset, friction, g
     for step in STEPS:
         record = record_of(step, [a, b])
         (found,) = record.impacts()
-        speed = sqrt(1 - 2 * ground * 9.80665 * (0.6 - sqrt(0.2**2 - offset**2)))
+        speed = sqrt(1 - 2 * ground * GRAVITY * (0.6 - sqrt(0.2**2 - offset**2)))
         sine = offset / 0.2
         normal, slip = speed * sqrt(1 - sine**2), speed * sine
         pushed = (1 + 0.8) * normal / (1 / 1.0 + 1 / 2.0)

@@ -162,21 +162,6 @@ def test_a_contact_at_the_very_end_of_a_control_step_belongs_to_it(sampling_time
     assert [len(record.frame(row).contacts) for row in range(30)] == [0] + [1] * 29
 
 
-# -- files ----------------------------------------------------------------------------------
-
-
-def test_the_scenario_comes_back_without_its_laws_and_own_parts(record, tmp_path):
-    again = mars2d.load(record.save(tmp_path / "run.npz")).scenario
-    assert again.obstacles == record.scenario.obstacles
-    assert again.bounds == record.scenario.bounds
-    assert [r.pose for r in again.robots] == [r.pose for r in record.scenario.robots]
-    assert [r.name for r in again.robots] == ["robot0", "robot1", "last"]
-    assert [type(r.drive) for r in again.robots] == [type(r.drive) for r in record.scenario.robots]
-    assert [len(r.sensors) for r in again.robots] == [1, 0, 0]  # Beams is not known here
-    assert all(r.controller is None for r in again.robots)
-    assert (again.stop_time, again.command_delay) == (2, 0.05)
-
-
 # -- props, joints and shapes as plain data, and run again ----------------------------------------
 
 ARROW = Polygon([(-0.15, -0.1), (0.2, 0), (-0.15, 0.1), (-0.1, 0)])

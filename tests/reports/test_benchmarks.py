@@ -55,7 +55,6 @@ def test_rays_are_timed_and_are_those_of_the_public_method(tmp_path):
     assert result["team"]["readings"] == [201, 20, 180]
 
 
-@pytest.mark.nightly
 def test_drawing_and_films_are_timed(tmp_path):
     pytest.importorskip("av")
     rows = run("drawing.py", "--rounds", "1", "--steps", "4", cwd=tmp_path)["drawing"]

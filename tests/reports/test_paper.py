@@ -63,19 +63,6 @@ def written(folder, name, code):
     return str(path)
 
 
-@pytest.fixture
-def paper(tmp_path, monkeypatch, capsys):
-    """Run the verb in an empty folder; return exit code, stdout and stderr."""
-    monkeypatch.chdir(tmp_path)
-
-    def run(*arguments):
-        capsys.readouterr()
-        code = cli.main(["paper", *map(str, arguments)])
-        return code, *capsys.readouterr()
-
-    return run
-
-
 @pytest.fixture(scope="module")
 def cheap(tmp_path_factory):
     """The page of Figure 2 alone, made by the command as it is typed."""
@@ -118,7 +105,7 @@ def check_numbers(folder, seed=0):
 
 
 @pytest.mark.slow
-def test_one_figure_alone_makes_its_page_its_pictures_and_its_numbers(cheap, paper):
+def test_one_figure_alone_makes_its_page_its_pictures_and_its_numbers(cheap, typed):
     found = check_page(cheap, [2])
     (made,) = check_numbers(cheap).values()
     assert made["ok"]
@@ -128,7 +115,7 @@ def test_one_figure_alone_makes_its_page_its_pictures_and_its_numbers(cheap, pap
         "index.html", "numbers.json", "fig2_random_walk.pdf", "fig2_random_walk.png",
     }  # fmt: skip
     (cheap / "notes.txt").write_text("mine")  # other files in it are left
-    assert paper(cheap, "--only", "2")[0] == 0
+    assert typed("paper", cheap, "--only", "2")[0] == 0
     check_page(cheap, [2])
     assert (cheap / "notes.txt").read_text() == "mine"
 
@@ -191,11 +178,11 @@ def test_figures_are_those_of_the_paper_and_each_experiment_states_its_setting()
 
 
 @each_case("name", ["notes.txt", "index.html"])
-def test_a_folder_of_something_else_is_refused_and_left_as_it_is(paper, name):
+def test_a_folder_of_something_else_is_refused_and_left_as_it_is(typed, name):
     folder = Path(name).with_suffix(".d")
     folder.mkdir()
     (folder / name).write_text("<html>mine</html>")
-    code, out, err = paper(folder, "--only", "2")
+    code, out, err = typed("paper", folder, "--only", "2")
     assert (code, out) == (2, "")
     assert f"holds {name}, and no page of `mars2d paper`" in err
     assert {p.name: p.read_text() for p in folder.iterdir()} == {name: "<html>mine</html>"}
@@ -215,9 +202,9 @@ def test_a_folder_of_something_else_is_refused_and_left_as_it_is(paper, name):
         (("out", "--onyl", "2"), "did you mean '--only'?"),
     ],
 )
-def test_what_can_not_be_done_is_said_in_one_line(paper, arguments, words):
+def test_what_can_not_be_done_is_said_in_one_line(typed, arguments, words):
     Path("file.txt").write_text("a file")
-    code, out, err = paper(*arguments)
+    code, out, err = typed("paper", *arguments)
     assert (code, out) == (2, "")
     assert words in err
     assert len(err.splitlines()) == 1
@@ -229,12 +216,12 @@ def test_what_can_not_be_done_is_said_in_one_line(paper, arguments, words):
 
 
 def test_a_prediction_that_does_not_hold_is_red_and_named_and_is_no_error(
-    paper, tmp_path, monkeypatch
+    typed, tmp_path, monkeypatch
 ):
     short = written(tmp_path, "short.py", FAILS)
     run = Run("fig2_short", short, "Too short", "It goes half as far.")
     monkeypatch.setattr(verb, "FIGURES", (figure(run),))
-    code, out, err = paper("out")
+    code, out, err = typed("paper", "out")
     assert (code, err) == (0, "")
     assert "0 of 1 prediction ok" in out
     assert 'NOT OK: Too short: way <of> "it" & more' in out
@@ -247,13 +234,13 @@ def test_a_prediction_that_does_not_hold_is_red_and_named_and_is_no_error(
 
 @pytest.mark.slow
 def test_a_figure_that_can_not_be_made_is_named_and_the_others_are_made(
-    paper, tmp_path, monkeypatch
+    typed, tmp_path, monkeypatch
 ):
     broken = Run("fig2_broken", written(tmp_path, "broken.py", BREAKS), "Broken", "Nothing.")
     walk = Run("fig3_random_walk", "random_walk", "Walk", "Short.", settings=["stop_time=5"])
     every = (figure(broken), figure(walk, number=3))
     monkeypatch.setattr(verb, "FIGURES", every)
-    code, out, err = paper("out")
+    code, out, err = typed("paper", "out")
     assert code == 1
     assert "not all was made: see figure 2 above" in err
     assert "ValueError: no law today" in out

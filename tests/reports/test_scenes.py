@@ -61,19 +61,6 @@ def test_the_bare_loop_moves_free_robots_as_a_world_does():
     assert bare.pose == pytest.approx(world.pose, abs=1e-9)
 
 
-def test_the_robots_of_the_bare_loop_get_less_deep_into_each_other_with_more_substeps():
-    scene = SCENES["S2"]()
-    overlaps = []
-    for substeps in (1, 15):
-        bare, poses = Bare(scene, substeps), []
-        for _ in range(100):
-            bare()
-            poses.append(bare.pose)
-        overlaps.append(deepest(scene, np.array(poses)))
-    assert 0.005 < overlaps[0] < 0.04
-    assert overlaps[1] < overlaps[0] / 4
-
-
 # -- overlaps -------------------------------------------------------------------------------------
 
 BOX = [(1.0, -0.5), (1.0, 0.5), (2.0, 0.5), (2.0, -0.5)]

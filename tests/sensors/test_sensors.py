@@ -13,18 +13,7 @@ from mars2d import InputError, LawError, Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.sensors import Proximity, Sensor
 from tests.cases import each_case
-
-
-def reading(sensor: Sensor, robots: list[Robot], outlines=(), pose=(0, 0, 0)):
-    """What the sensor reads on a tiny robot at `pose` among others and obstacles."""
-    carrier = Robot(pose=pose, diameter=0.01, sensors=[sensor], name="carrier")
-    scenario = Scenario(
-        robots=[carrier, *robots], addons=[Map(list(outlines))], workspace=None, stop_time=1
-    )
-    world = World(scenario)
-    world.observe()
-    return getattr(world.robots[0].sense, sensor.key)
-
+from tests.worlds import reading
 
 # -- proximity ------------------------------------------------------------------------------
 
@@ -59,7 +48,7 @@ def test_proximity_says_whether_a_surface_lies_in_the_sector(discs, walls, headi
     things += [shapely.LineString(ends) for ends in walls]
     assume(all(thing.distance(here) > 0.01 for thing in things))
     try:
-        found = reading(Proximity(range=radius, field_of_view=angle), robots, walls, pose)
+        found = reading(Proximity(range=radius, field_of_view=angle), robots, walls, pose=pose)
     except InputError:
         assume(False)  # the others start inside each other
     view = sector(pose, radius, angle)

@@ -9,25 +9,18 @@ import pytest
 
 import mars2d
 from mars2d import InputError, LawError, Robot, Scenario, World, addons, sensors
-from mars2d.addons import Map
 from mars2d.bodies.props import Box
 from mars2d.core.arithmetic import angle_of, norm
 from mars2d.core.plane import wrap
 from mars2d.geometry.bearings import sighted
 from mars2d.sensors import RangeBearing
 from tests.cases import each_case
+from tests.worlds import observed
 
 
-def world_of(sensor, others=(), outlines=(), pose=(0, 0, 0), extra=(), props=(), seed=0):
+def world_of(sensor, others=(), outlines=(), **more):
     """A world whose robot 0 carries the sensor, after the first measurement."""
-    carrier = Robot(pose=pose, diameter=0.2, sensors=[sensor], name="carrier")
-    robots = [carrier, *(Robot(pose=place, diameter=0.2) for place in others)]
-    scenario = Scenario(
-        robots=robots, props=props, addons=[Map(list(outlines)), *extra], workspace=None
-    )
-    world = World(scenario, seed=seed)
-    world.observe()
-    return world
+    return observed(sensor, [Robot(pose=at, diameter=0.2) for at in others], outlines, **more)
 
 
 def seen(sensor, others=(), outlines=(), **more):
@@ -130,20 +123,6 @@ def test_what_stands_before_a_robot_hides_it(what, hides):
     for through in (False, True):
         found = seen(RangeBearing(through_walls=through), others, **what)
         assert (1 in [each.robot for each in found]) is (through or not hides)
-
-
-def test_noise_has_its_deviations_and_what_is_not_seen_stays_so():
-    others = [(2, 0, 0), (0, 9, 0), (0, -3, 0)]
-    sensor = RangeBearing(noise=(0.1, 0.02))
-    carrier = Robot(sensors=[sensor], name="carrier")
-    robots = [carrier, *(Robot(pose=place) for place in others)]
-    record = mars2d.run(Scenario(robots=robots, workspace=None, stop_time=200))
-    found = record.sensors["range_bearing"][:, 0]
-    for i, (distance, bearing) in {1: (2, 0), 3: (3, -pi / 2)}.items():
-        error = found[:, i] - [distance, bearing]
-        assert error.mean(axis=0) == pytest.approx([0, 0], abs=0.01)
-        assert error.std(axis=0) == pytest.approx([0.1, 0.02], rel=0.1)
-    assert not np.isfinite(found[:, [0, 2]]).any()
 
 
 def test_outliers_strike_only_what_is_seen_and_both_values_are_there_or_none():
@@ -306,14 +285,3 @@ def test_the_world_knows_where_a_moving_beacon_is_now():
 def test_a_beacon_that_can_not_be_is_an_error(fields, message):
     with pytest.raises(InputError, match=message):
         addons.Beacon(**fields)
-
-
-def test_sensor_and_addon_of_the_same_name_come_back_from_a_record(tmp_path):
-    robot = Robot(sensors=[sensors.Beacon(names=["lamp"])])
-    scenario = Scenario(robots=[robot], addons=LAMPS, stop_time=0.2)
-    mars2d.run(scenario).save(tmp_path / "r.npz")
-    loaded = mars2d.load(tmp_path / "r.npz")
-    assert loaded.scenario == scenario
-    assert isinstance(loaded.scenario.addons[0], addons.Beacon)
-    assert isinstance(loaded.scenario.robots[0].sensors[0], sensors.Beacon)
-    assert loaded.missing == ()

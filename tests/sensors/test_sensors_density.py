@@ -14,31 +14,10 @@ import mars2d
 from mars2d import Robot, Scenario, Unicycle, World
 from mars2d.sensors import NUMBER, Imu, Odometry, Quantity, Sensor
 from tests.cases import each_case
+from tests.worlds import crowd, like
 
 N = 100
-SECONDS = 10.0
 PERIODS = [(0.4, 1), (0.1, 5), (0.043, 1)]
-
-
-def spread(values: np.ndarray, deviation: float) -> None:
-    """Assert that values of the mean 0 have this standard deviation, to four of its own."""
-    assert values.std() == pytest.approx(deviation, rel=4 / sqrt(2 * values.size))
-    assert values.mean() == pytest.approx(0, abs=4 * deviation / sqrt(values.size))
-
-
-def crowd(sensor: Sensor, sampling_time: float, command=(0.0, 0.0), drive=None) -> World:
-    """Return a world after ten seconds in which N robots carry a sensor, far from each other."""
-    drive = drive or Unicycle(wheel_semiaxis=0.14)
-    robots = [Robot(pose=(0, 20.0 * k, 0), drive=drive, sensors=[sensor]) for k in range(N)]
-    scenario = Scenario(
-        robots=robots, physics="ideal", workspace=None,
-        sampling_time=sampling_time, stop_time=SECONDS,
-    )  # fmt: skip
-    world = World(scenario, seed=11)
-    commands = np.tile(np.reshape(command, (2, 1)), N)
-    while not world.over:
-        world.step(commands)
-    return world
 
 
 def summed(world: World, key: str, every: int) -> tuple[np.ndarray, float]:
@@ -56,10 +35,10 @@ def summed(world: World, key: str, every: int) -> tuple[np.ndarray, float]:
 def test_the_heading_of_a_gyroscope_walks_alike_at_any_rate(sampling_time, every):
     density = (0.03, 0.021, 0.004)
     rate = None if every == 1 else 1 / (every * sampling_time)
-    world = crowd(Imu(noise=density, rate=rate), sampling_time)
+    world = crowd(N, (0, 0), sampling_time, 11, sensors=[Imu(noise=density, rate=rate)])
     found, time = summed(world, "imu", every)
     for k in range(3):
-        spread(found[:, k], density[k] * sqrt(time))
+        like(found[:, k], 0, density[k] * sqrt(time))
     largest = np.abs(np.corrcoef(found.T) - np.eye(3)).max()
     assert largest < 4 / sqrt(N)
 
@@ -68,15 +47,7 @@ def test_the_heading_of_a_gyroscope_walks_alike_at_any_rate(sampling_time, every
 def test_one_reading_is_the_noisier_the_shorter_its_time(every):
     robot = Robot(sensors=[Imu(noise=0.02, rate=25 / every)])
     found = mars2d.run(Scenario(robots=[robot], sampling_time=0.04, stop_time=60)).sensors["imu"]
-    spread(found[::every, 0].ravel(), 0.02 / sqrt(0.04 * every))
-
-
-@pytest.mark.slow
-@each_case("sampling_time", [0.4, 0.043])
-def test_the_bias_walks_alike_at_any_sampling_time(sampling_time):
-    world = crowd(Imu(bias_walk=(0.02, 0.05, 0.003)), sampling_time)
-    for k, density in enumerate((0.02, 0.05, 0.003)):
-        spread(world.record.sensors["imu"][-1, :, k], density * sqrt(world.time))
+    like(found[::every, 0].ravel(), 0, 0.02 / sqrt(0.04 * every))
 
 
 @each_case("every", [1, 3, 7])
@@ -107,7 +78,7 @@ def test_a_sensor_of_ones_own_may_have_a_density():
     robot = Robot(sensors=[Gyroscope(noise=(0.05, 0.0), rate=5, outliers=0.0)])
     scenario = Scenario(robots=[robot], sampling_time=0.04, stop_time=100)
     found = mars2d.run(scenario).sensors["gyroscope"][::5, 0]
-    spread(found[:, 0], 0.05 / sqrt(0.2))
+    like(found[:, 0], 0, 0.05 / sqrt(0.2))
     assert not found[:, 1].any()
 
 
@@ -119,26 +90,15 @@ def test_a_sensor_of_ones_own_may_have_a_density():
 def test_the_drift_of_odometry_is_alike_at_any_rate(sampling_time, every):
     v, b, drift = 0.31, 0.14, 0.004
     rate = None if every == 1 else 1 / (every * sampling_time)
-    world = crowd(Odometry(drift=drift, rate=rate), sampling_time, (v, 0.0))
+    robot = {"drive": Unicycle(wheel_semiaxis=b), "sensors": [Odometry(drift=drift, rate=rate)]}
+    world = crowd(N, (v, 0.0), sampling_time, 11, **robot)
     last = world.record.sensors["odometry"][::every][-1]
     way = v * every * sampling_time * (len(world.record.time[::every]) - 1)
     off = last - [way, 0, 0]
     turning = drift**2 / (2 * b * b)
-    spread(off[:, 2], sqrt(turning * way))
-    spread(off[:, 1], sqrt(turning * way**3 / 3))
+    like(off[:, 2], 0, sqrt(turning * way))
+    like(off[:, 1], 0, sqrt(turning * way**3 / 3))
     bends = way**2 * turning
     deviation = sqrt(drift**2 * way / 2 + bends**2 / 12)
     assert off[:, 0].mean() == pytest.approx(-bends / 4, abs=4 * deviation / sqrt(N))
     assert off[:, 0].std() == pytest.approx(deviation, rel=4 / sqrt(2 * N))
-
-
-@pytest.mark.slow
-@each_case("sampling_time", [0.4, 0.043])
-def test_odometry_follows_a_noisy_drive_at_any_sampling_time(sampling_time):
-    """The wheels do turn so; what it is off by is its own drift alone."""
-    v, b, drift, noise = 0.31, 0.14, 0.004, 0.01
-    drive = Unicycle(wheel_semiaxis=b, noise=noise)
-    world = crowd(Odometry(drift=drift), sampling_time, (v, 0.0), drive)
-    believed = world.record.sensors["odometry"][-1, :, 2]
-    spread(world.pose[2], noise * v * sqrt(world.time / 2) / b)
-    spread(believed - world.pose[2], drift * sqrt(v * world.time / 2) / b)

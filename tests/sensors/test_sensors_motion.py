@@ -145,27 +145,6 @@ def predicted(rims, semiaxis, drift, start=0.0):
 
 
 @pytest.mark.slow
-def test_on_a_straight_line_the_covariance_is_that_of_theory():
-    drift, b, length, steps = 1e-3, 0.2, 5.0, 100  # so small that the first order is all
-    found, truth = estimates([(0.5, 0)] * steps, drift)
-    k = drift**2
-    # Integrals over the way; the sums over steps differ by 1 / (4 steps^2).
-    turning = k / (2 * b * b)
-    theory = np.array(
-        [
-            [k * length / 2, 0, 0],
-            [0, turning * length**3 / 3, turning * length**2 / 2],
-            [0, turning * length**2 / 2, turning * length],
-        ]
-    )
-    assert found.mean(axis=0) == pytest.approx(truth, abs=4 * sqrt(theory[1, 1] / SEEDS))
-    assert agree(found, theory)
-    assert not agree(found, 1.5 * theory)
-    made = predicted([(0.05, 0.05)] * steps, b, drift)
-    assert made == pytest.approx(theory, rel=1e-4, abs=1e-12)
-
-
-@pytest.mark.slow
 def test_round_a_circle_the_covariance_is_that_of_theory():
     drift, b, radius, steps = 1e-3, 0.2, 0.8, 100
     turn = 2 * pi / steps / 0.1  # rad/s

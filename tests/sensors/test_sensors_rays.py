@@ -18,19 +18,7 @@ from mars2d.core.scene import Scene
 from mars2d.geometry.shapes import Polygon as PolygonShape
 from mars2d.sensors import Bumper, LineCamera, Proximity, RangeFinder, Sensor, SonarRing
 from tests.cases import each_case
-
-
-def world_with(sensor: Sensor, robots=(), outlines=(), pose=(0, 0, 0), **fields) -> World:
-    """A world in which a small robot carries the sensor, among others and obstacles."""
-    carrier = Robot(pose=pose, diameter=0.01, sensors=[sensor], name="carrier")
-    fields = {"workspace": None} | fields
-    return World(Scenario(robots=[carrier, *robots], addons=[Map(list(outlines))], **fields))
-
-
-def reading(sensor: Sensor, *args, **fields):
-    world = world_with(sensor, *args, **fields)
-    world.observe()
-    return getattr(world.robots[0].sense, sensor.key)
+from tests.worlds import observed, reading
 
 
 def drawn(sensor: Sensor, value, pose=(0.0, 0.0, 0.0)) -> list:
@@ -87,8 +75,7 @@ def test_a_sonar_hears_the_nearest_point_in_its_cone(seed, cone, sonars):
     ends = rng.uniform(-0.9, 0.9, (2, 2, 2)) + np.array(cells[2:])[:, None]
     walls = [[tuple(end) for end in wall] for wall in ends.tolist()]
     sensor = SonarRing(sonars=sonars, cone=cone, range=rng.uniform(1, 3), field_of_view=2 * pi)
-    world = world_with(sensor, robots, walls, pose=(*rng.uniform(-0.4, 0.4, 2), rng.uniform(-3, 3)))
-    world.observe()
+    world = observed(sensor, robots, walls, pose=(*rng.uniform(-0.4, 0.4, 2), rng.uniform(-3, 3)))
     x, y, theta = world.pose[:, 0].tolist()
     things = [shapely.Point(cells[0]).buffer(robots[0].radius, quad_segs=500)]
     heading = robots[1].pose[2]

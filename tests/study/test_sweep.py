@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import os
 import signal
-import subprocess
-import sys
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
@@ -15,7 +13,7 @@ from mars2d import InputError, Robot, Scenario
 from mars2d.cli.command_line import main
 from mars2d.study.table import Table
 from tests.cases import each_case
-from tests.processes import PATIENCE, wait_until
+from tests.processes import PATIENCE, begun, wait_until
 
 DRIFT = '''
 """Robots drift."""
@@ -250,15 +248,6 @@ def test_what_is_in_the_file_is_not_run_again_and_seeds_and_values_may_become_mo
     assert (here / "r.csv").read_bytes() == (here / "again.csv").read_bytes()
 
 
-def test_a_torn_line_is_run_again(here):
-    whole = sweep(None, 3, out="r.csv")
-    data = (here / "r.csv").read_bytes()
-    (here / "r.csv").write_bytes(data[:-20])
-    assert sweep(None, 3, out="r.csv") == whole
-    assert (here / "r.csv").read_bytes() == data
-    assert runs(here) == 4
-
-
 def test_rows_with_errors_are_run_again_only_if_asked(here):
     law = 'return (1 / 0 if Path("bad").exists() and robot.pose[2] else 0.1), 0.0'
     (here / "drift.py").write_text(DRIFT.replace("return gain * robot.rng.uniform(), 0.0", law))
@@ -309,14 +298,6 @@ def test_a_file_made_by_other_code_is_refused(here):
 COMMAND = ["sweep", "drift.py", "--set", "gain=0.5,1.0", "--seeds", "20", "--measure", "far"]
 
 
-def command(*arguments):
-    return subprocess.Popen(
-        [sys.executable, "-P", "-m", "mars2d", *arguments],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, encoding="utf-8",
-        start_new_session=True,
-    )  # fmt: skip
-
-
 def once_rows(file, count, process):
     """Wait until a file has some rows, and return them."""
 
@@ -333,19 +314,18 @@ def test_interrupted_and_killed_it_goes_on_and_the_file_is_that_of_one_worker(he
     (here / "drift.py").write_text(slow)
     study = [*COMMAND, "--out", "r.csv", "--workers", "2"]
 
-    process = command(*study)
-    once_rows(here / "r.csv", 3, process)
-    os.killpg(process.pid, signal.SIGINT)  # as a terminal does
-    _, errors = process.communicate(timeout=PATIENCE)
+    with begun(*study, start_new_session=True) as process:
+        once_rows(here / "r.csv", 3, process)
+        os.killpg(process.pid, signal.SIGINT)  # as a terminal does
+        _, errors = process.communicate()
     rows = len(Table.load("r.csv"))
     assert process.returncode == 130, errors
     assert errors == f"mars2d: {rows} of 40 runs are in r.csv; the same command goes on\n"
     assert 3 <= rows < 40
 
-    process = command(*study)
-    once_rows(here / "r.csv", rows + 3, process)
-    os.kill(process.pid, signal.SIGKILL)
-    process.communicate(timeout=PATIENCE)
+    with begun(*study, start_new_session=True) as process:
+        once_rows(here / "r.csv", rows + 3, process)
+        process.kill()
     with (here / "r.csv").open("ab") as file:
         file.write(b"17,drift.py,0.5,1,0.2")  # what a full disk or a power failure leaves
     there = len(Table.load("r.csv"))

@@ -4,7 +4,7 @@ Question: from which width on does the car win from any start?
 Setting: distributed, partial information: each knows its own pose and that of the other. The car
 goes at 1 m/s always and steers; the pedestrian asks for a velocity. A touch is a capture: their
 middles are `reach` apart, drawn about the limit if it is 0.
-Play: mars2d run homicidal_chauffeur --human pedestrian
+Play: by mars2d run homicidal_chauffeur --human pedestrian
 Source: R. Isaacs, Differential Games, 1965; A. W. Merz, The Homicidal Chauffeur, Stanford, 1971.
 Prediction: for a radius R, l = reach / R and g < 1, the ratio of the speeds, the car wins from
 everywhere in the endless plane if and only if l > sqrt(1 - g^2) + g asin(g) - 1. That is how far,

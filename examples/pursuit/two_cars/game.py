@@ -3,7 +3,7 @@
 Question: is it enough to be quicker?
 Setting: distributed, partial information: each knows its own pose and that of the other, and
 steers. A touch is a capture. The evader's radius is drawn from 0.4 to 1.2 m if it is 0.
-Play: mars2d run two_cars --human evader
+Play: by mars2d run two_cars --human evader
 Source: E. J. Cockayne, Plane pursuit with curvature constraints, SIAM Journal on Applied
 Mathematics 15, 1967: with points in the endless plane the pursuer can capture from every start if
 and only if it is quicker, v > w, and can bend its way as strongly, v^2 / R >= w^2 / r, for the

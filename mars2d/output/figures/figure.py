@@ -92,12 +92,11 @@ def plot_snapshots(record: Rows, times: ArrayLike, *, layers: Layers | None = No
     in `plot_paths`. Raises InputError for a time outside the record, and if the record has no rows.
     """
     rows, scenario = rows_at(record, times), record.scenario
-    view, layers, entries = (
-        View.of(record, max(rows)),
-        layers or layers_of(scenario),
-        robots_of(scenario),
-    )
-    cols = min(len(rows), 4)
+    view, entries = View.of(record, max(rows)), robots_of(scenario)
+    layers = layers or layers_of(scenario)
+    # the whole about twice as wide as high, no line much emptier than the others
+    most = ceil((2 * len(rows) * view.height / view.width) ** 0.5)
+    cols = ceil(len(rows) / ceil(len(rows) / min(len(rows), most, 4)))
     axes = new_axes(view, len(rows), cols, legend_width(entries))
     add_legend(axes[min(cols, len(axes)) - 1], entries, **BESIDE)
     for k, (ax, row) in enumerate(zip(axes, rows, strict=True)):
