@@ -16,7 +16,7 @@ from mars2d.core.arrays import sealed
 from mars2d.core.errors import InputError, UnknownNameError, counted, nearest
 from mars2d.core.scene import Scene
 from mars2d.record.contact import CONTACT, met, pair_forces, rows_of
-from mars2d.record.energy import Energy, Momentum, energy_of, momentum_of
+from mars2d.record.energy import WORK, Energy, Momentum, energy_of, momentum_of
 from mars2d.record.frame import Frame
 from mars2d.record.impacts import impacts
 from mars2d.record.interventions import Change, Intervention, Leap, leaps_of
@@ -25,11 +25,24 @@ from mars2d.scenario.scenario import Scenario
 
 Float = NDArray[np.float64]
 
-COLUMNS = (
-    "time", "pose", "command", "command_time", "prop_pose", "effort", "velocity", "prop_velocity",
-    "work",
-)  # fmt: skip
-"""The columns of every record, with a row for each control step."""
+COLUMNS: dict[str, tuple[str, ...]] = {
+    "time": (),
+    "pose": ("axis", "robot"),
+    "command": ("input", "robot"),
+    "command_time": (),
+    "prop_pose": ("axis", "prop"),
+    "effort": ("robot",),
+    "velocity": ("axis", "robot"),
+    "prop_velocity": ("axis", "prop"),
+    "work": ("work_of",),
+}
+"""The columns of every record, with a row for each control step, and the axes of a row."""
+
+
+def shapes_of(robots: int, props: int, inputs: int) -> dict[str, tuple[int, ...]]:
+    """Return the shape of a row of each of `COLUMNS`; inputs: the numbers of a command."""
+    sizes = {"axis": 3, "input": inputs, "robot": robots, "prop": props, "work_of": len(WORK)}
+    return {name: tuple(sizes[axis] for axis in axes) for name, axes in COLUMNS.items()}
 
 
 class _BySensor(dict[str, Any]):

@@ -6,7 +6,6 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mars2d.core.description import snake_case
 from mars2d.core.scene import Scene
@@ -22,7 +21,7 @@ from mars2d.output.layers.trails import (
     prop_trail_colors,
     trail_colors,
 )
-from mars2d.output.pages.replay.columns import Columns, Int, rounded
+from mars2d.output.pages.replay.columns import Columns, rounded
 from mars2d.output.pages.replay.drawings import Drawing, Flat, Float, flat, follows, pack, shapes_of
 from mars2d.output.raster.theme import LIGHT, mixed
 from mars2d.record.frame import Frame
@@ -348,14 +347,3 @@ def _progress(ways: Float) -> Float:
     time = np.linspace(0.0, 1.0, len(ways))
     moved = np.concatenate([[0.0], np.cumsum(np.diff(ways, axis=0).max(axis=1, initial=0.0))])
     return time + moved / max(float(moved[-1]), 1e-300)
-
-
-def _gaps(ways: Float, poses: Float, kept: Int, size: float) -> NDArray[np.bool_]:
-    """Return on the way to which kept rows a line would not do for a body's path, (R, n).
-
-    A line does for a path that is less than a tenth longer, as an arc of less than 90 degrees is,
-    or by less than a five hundredth of the view's size.
-    """
-    gone = np.diff(ways[kept], axis=0, prepend=ways[:1])
-    line = np.hypot(*np.diff(poses[kept, :2], axis=0, prepend=poses[:1, :2]).swapaxes(0, 1))
-    return np.asarray(gone - line > np.maximum(0.1 * gone, size / 500))
