@@ -90,6 +90,8 @@ def test_positions_are_within_micrometres_and_headings_within_a_hundredth_of_a_d
     low = np.array(content["columns"]["places"]["low"])[:, None]
     assert np.abs(columns["places"] + low - poses[:, :2]).max() < 7e-6
     assert np.degrees(np.abs(columns["headings"] - poses[:, 2]).max()) < 0.01
+    upright = {layer for layer, it in content["drawn"].items() if it["drawings"][0]["upright"]}
+    assert upright == {"names"}  # all else turns with its body
 
 
 # -- long runs ------------------------------------------------------------------------------------

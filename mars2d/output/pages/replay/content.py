@@ -22,7 +22,7 @@ from mars2d.output.layers.trails import (
     trail_colors,
 )
 from mars2d.output.pages.replay.columns import Columns, rounded
-from mars2d.output.pages.replay.drawings import Drawing, Flat, Float, flat, follows, pack, shapes_of
+from mars2d.output.pages.replay.drawings import Drawing, Flat, Float, flat, pack, shapes_of
 from mars2d.output.raster.theme import LIGHT, mixed
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import leaps_of
@@ -45,9 +45,6 @@ FINE, TURN, COARSE = 2**-20, 2 * np.pi / 2**16, 2**-16
 
 LEAP = 0.12
 """The share of the view beyond which a shape leaps between rows, rather than moving evenly."""
-
-ELSEWHERE = np.array([0.7, -0.4, 1.1])
-"""A pose that tells what turns with a body from what only moves with it."""
 
 
 def content_of(record: Rows) -> tuple[dict[str, Any], Columns]:
@@ -90,7 +87,7 @@ class _Content:
         return header, self.columns
 
     def _about(self) -> dict[str, Any]:
-        record, scenario, view = self.record, self.scenario, self.view
+        record, scenario = self.record, self.scenario
         bounded = scenario.workspace is not None and scenario.on_exit != "ignore"
         return {
             "title": scenario.title,
@@ -103,7 +100,7 @@ class _Content:
             "changed": len(record.interventions),
             "step": scenario.sampling_time,
             "rows": len(record),
-            "view": [view.xmin, view.xmax, view.ymin, view.ymax],
+            "view": self.view,
             "grid": list(scenario.bounds) if bounded else None,
             "ground": LIGHT.paper if scenario.workspace is None else LIGHT.page,
             "colors": LIGHT._asdict(),
@@ -267,18 +264,12 @@ class _Content:
     def _carried(self, layer: Layer) -> list[Drawing]:
         """Return a layer that moves with bodies: one scene for each, in its frame."""
         assert layer.each is not None
-        each, found = layer.each, []
-
-        def at(body: int, pose: Float) -> Flat:
-            scene = Scene()
-            each(scene, self.scenario, body, pose)
-            return flat(scene.shapes)
-
+        found = []
         for body in range(len(self.scenario.bodies)):
-            here = at(body, np.zeros(3))
-            if here.styles:
-                turns = follows(here, at(body, ELSEWHERE), ELSEWHERE)
-                found.append(Drawing([0], [here], body, upright=not turns))
+            scene = Scene()
+            layer.each(scene, self.scenario, body, np.zeros(3))
+            if scene.shapes:
+                found.append(Drawing([0], [flat(scene.shapes)], body, layer.upright))
         return found
 
     def _add_rows(
