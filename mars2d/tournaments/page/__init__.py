@@ -9,7 +9,7 @@ from pathlib import Path
 
 from mars2d.core.errors import one_line
 from mars2d.core.files import atomic_write
-from mars2d.output.pages.replay import colors, filled, player
+from mars2d.output.pages.replay import filled, look, player
 from mars2d.scenario.options import options_in_words
 from mars2d.tournaments.league import UNPROTECTED, Tournament
 from mars2d.tournaments.page.tables import (
@@ -63,7 +63,7 @@ def _page(title: str, body: str, script: str) -> str:
     """Return a page. script: what it runs besides."""
     words = {
         "title": escaped(title),
-        "style": colors() + read("page.css"),
+        "style": look() + read("page.css"),
         "body": body,
         "script": f"(() => {{\n{read('page.js')}{script}}})();",
     }
