@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,14 +14,7 @@ from mars2d.core import checks
 from mars2d.core.description import accepts, entry, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.interfaces import WorldLike
-from mars2d.core.picture import (
-    Bounds,
-    Picture,
-    image_bounds,
-    image_file,
-    picture_name,
-    read_picture,
-)
+from mars2d.core.picture import Bounds, Picture, image_bounds, image_file, read_picture
 from mars2d.core.plane import Outline, Point, bounds_of, inside_polygon, rectangle
 from mars2d.core.scene import Scene, rgb
 from mars2d.core.scene import color as checked_color
@@ -138,7 +132,7 @@ class Floor(Addon):
             except InputError:
                 scene.polygon(rectangle(*self.bounds), fill="#e6e9ed")
                 xmin, xmax, ymin, ymax = self.bounds
-                absent = f"{picture_name(str(self.image))} is not there"
+                absent = f"{Path(str(self.image)).name} is not there"
                 scene.text(((xmin + xmax) / 2, (ymin + ymax) / 2), absent)
         for outline, color in self.patches:
             scene.polygon(outline, fill=color)

@@ -5,10 +5,8 @@ from __future__ import annotations
 import contextlib
 import os
 import warnings
-from base64 import b64decode, b64encode
 from collections.abc import Iterator
-from functools import cached_property, lru_cache
-from io import BytesIO
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -25,32 +23,9 @@ Bounds = tuple[float, float, float, float]
 """The place of an image: (xmin, xmax, ymin, ymax), metres."""
 
 
-INSIDE, DATA = "data:image/png;name=", ";base64,"
-"""What a picture that is in a record has before its name, and between its name and itself."""
-
-
-def holds_pixels(image: str) -> bool:
-    """Return whether a text is a picture itself, not the name of its file."""
-    return image.startswith(INSIDE) and DATA in image
-
-
-def without_pixels(image: str) -> str:
-    """Return the text of a picture that is not there."""
-    return f"{INSIDE}{picture_name(image)}{DATA}"
-
-
-def picture_name(image: str) -> str:
-    """Return the name of a picture's file without its folder, also of one that is in a record."""
-    if holds_pixels(image):
-        image = image.removeprefix(INSIDE).rpartition(DATA)[0]
-    return Path(image).name
-
-
 @accepts({"type": "string"})
 def image_file(name: str, value: object) -> str:
-    """Check the name of a PNG file, or a picture in a record."""
-    if isinstance(value, str) and holds_pixels(value):
-        return value
+    """Check the name of a PNG file."""
     if not isinstance(value, (str, os.PathLike)) or Path(value).suffix.lower() != ".png":
         raise wrong(name, value, "the name of a file that ends in .png, or None")
     return str(value)
@@ -78,41 +53,25 @@ class Picture:
     def __deepcopy__(self, memo: object) -> Picture:
         return self
 
-    def as_text(self, name: str) -> str:
-        """Return the picture as a text with the name of its file, which is read as its file is."""
-        return without_pixels(name) + self._base64
-
-    @cached_property
-    def _base64(self) -> str:
-        from PIL import Image
-
-        file = BytesIO()
-        Image.fromarray(self.pixels).save(file, "PNG")
-        return b64encode(file.getvalue()).decode()
-
 
 def read_picture(name: str, image: str, color: str | None = None) -> Picture:
     """Return the picture in a PNG file; its transparent parts show `color`, or white.
 
     The file is read again only if it has changed. Raises InputError, beginning with `name`, if the
-    file is missing, is not a PNG with 8 bits per channel, or is too large. No file is opened for a
-    picture in a record.
+    file is missing, is not a PNG with 8 bits per channel, or is too large.
     """
     path = Path(image)
-    if holds_pixels(image):
-        return _read(name, image, 0, color)
-    return _read(name, image, path.stat().st_mtime_ns if path.exists() else 0, color)
+    return _read(name, path, path.stat().st_mtime_ns if path.exists() else 0, color)
 
 
 @lru_cache(maxsize=4)
-def _read(name: str, image: str, version: int, color: str | None) -> Picture:  # noqa: ARG001
+def _read(name: str, path: Path, version: int, color: str | None) -> Picture:  # noqa: ARG001
     """Return an image laid over a colour; `version` is part of the cache's key."""
-    name = f"{name} = {(picture_name(image) if holds_pixels(image) else image)!r}"
+    name = f"{name} = {str(path)!r}"
     try:
-        with opened_image(name, _inside(name, image), "PNG") as opened:
+        with opened_image(name, path, "PNG") as opened:
             pixels = np.asarray(opened.convert("RGBA"))
     except FileNotFoundError:
-        path = Path(image)
         where = "" if path.is_absolute() else f" in {Path.cwd()}"
         beside = f"Path(__file__).with_name({path.name!r})"
         raise InputError(
@@ -127,33 +86,18 @@ def _read(name: str, image: str, version: int, color: str | None) -> Picture:  #
     return Picture(result)
 
 
-def _inside(name: str, image: str) -> Path | BytesIO:
-    """Return the place of a picture: its file, or what a record holds of it."""
-    if not holds_pixels(image):
-        return Path(image)
-    data = image.rpartition(DATA)[2]
-    if not data:
-        raise InputError(f"{name}: the record does not hold this picture")
-    try:
-        return BytesIO(b64decode(data, validate=True))
-    except ValueError:
-        raise InputError(f"{name}: this is no PNG image") from None
-
-
 @contextlib.contextmanager
-def opened_image(
-    name: str, file: Path | BytesIO, kind: str, *, deep: bool = False
-) -> Iterator[Any]:
+def opened_image(name: str, file: Path, kind: str, *, deep: bool = False) -> Iterator[Any]:
     """Open an image with 8 bits per channel as an image of Pillow, whose pixels are not read yet.
 
-    file: its path, or what is in it. kind: Pillow's name of its format, such as ``PNG``. deep: 16
-    bits of grey are allowed as well, in the modes ``I;16`` and ``I``. Raises
-    FileNotFoundError if the file is missing. Raises InputError, beginning with `name`, for anything
-    else wrong with it, also while its pixels are read within the block.
+    kind: Pillow's name of its format, such as ``PNG``. deep: 16 bits of grey are allowed as well,
+    in the modes ``I;16`` and ``I``. Raises FileNotFoundError if the file is missing, and
+    InputError, beginning with `name`, for anything else wrong with it, also while its pixels are
+    read within the block.
     """
     from PIL import Image, UnidentifiedImageError
 
-    what = file.suffix[1:].upper() if isinstance(file, Path) else kind
+    what = file.suffix[1:].upper()
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # about sizes, which are checked here

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, fields
 from typing import Any
 
 from mars2d.core.plane import Point
-from mars2d.scenario import pictures, serialize
+from mars2d.scenario import serialize
 from mars2d.scenario.scenario import Scenario
 
 Triple = tuple[float, float, float]
@@ -117,10 +117,7 @@ def pushes_at(done: Iterable[Intervention], time: float, sampling_time: float) -
 def to_plain(intervention: Intervention) -> dict[str, Any]:
     """Return an intervention as dicts, lists, text and numbers."""
     kept = [each.name for each in fields(intervention) if each.compare]  # not what is code
-    values = {
-        name: serialize.from_description(pictures.enclosed(getattr(intervention, name)))
-        for name in kept
-    }
+    values = {name: serialize.from_description(getattr(intervention, name)) for name in kept}
     if options := values.pop("options", None):
         values["settings"] = options  # as files have called them ever since
     return {"type": type(intervention).__name__, **values}
@@ -145,7 +142,7 @@ def of_one_hand(before: Intervention, after: Intervention) -> bool:
 
 def _read(value: Any) -> Any:
     if isinstance(value, dict):
-        return serialize.to_scenario(pictures.of_record(value, []))[0]
+        return serialize.to_scenario(value)[0]
     return tuple(map(_read, value)) if isinstance(value, list) else value
 
 

@@ -17,7 +17,7 @@ from typing import Any
 from mars2d.core.description import Description, wrong
 from mars2d.core.errors import InputError, likely, nearest, shown
 from mars2d.core.files import atomic_write, file_beside
-from mars2d.core.picture import holds_pixels, image_file
+from mars2d.core.picture import image_file
 from mars2d.core.usercode import name_of
 from mars2d.scenario import serialize
 from mars2d.scenario.code_file import law_in, located
@@ -326,8 +326,7 @@ class _Reader:
             return [self._part(place, item, f"{at}[{i}]") for i, item in enumerate(value)]
         if field.name == "controller" and issubclass(kind, Robot):
             return self._controller(at, value)
-        is_image = field.metadata.get("check") is image_file and isinstance(value, str)
-        if is_image and not holds_pixels(value):
+        if field.metadata.get("check") is image_file and isinstance(value, str):
             beside = self.path.absolute().parent / value
             return str(beside) if beside.is_file() else value
         return self._plain(value, at)

@@ -12,7 +12,7 @@ from PIL import Image
 import mars2d
 from mars2d import Addon, InputError, LawError, Robot, Scenario, World
 from mars2d.addons import Floor
-from mars2d.core.scene import Scene
+from mars2d.core.scene import Scene, Text
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.picture import paint_frame
@@ -185,6 +185,18 @@ def test_an_image_is_painted_where_it_lies_with_its_first_row_on_top(picture):
     outside = made.copy()
     outside[20:60, 20:80] = 255
     assert (outside == 255).all()
+
+
+def test_a_record_names_its_image_and_shows_it_where_its_file_is_there(picture, tmp_path):
+    scenario = Scenario(addons=[Floor(image="p.png", bounds=(0, 3, 0, 2))], stop_time=0.2)
+    path = mars2d.run(scenario).save("run.npz")
+    assert (mars2d.load(path).scenario.addons[0].picture.pixels == picture).all()
+    (tmp_path / "p.png").unlink()
+    scene = Scene()
+    mars2d.load(path).scenario.addons[0].paint(scene, SQUARE)
+    assert [shape.text for shape in scene.shapes if isinstance(shape, Text)] == [
+        "p.png is not there"
+    ]
 
 
 @pytest.mark.slow

@@ -17,7 +17,7 @@ from mars2d.record import interventions
 from mars2d.record.contact import CONTACT
 from mars2d.record.message import MESSAGE
 from mars2d.record.rows import COLUMNS, Rows, shapes_of
-from mars2d.scenario import pictures, serialize
+from mars2d.scenario import serialize
 
 Columns = Mapping[str, NDArray[Any]]
 
@@ -35,7 +35,7 @@ def of_record(record: Rows) -> dict[str, Any]:
     """Return everything in a record but its columns, as dicts, lists, text and numbers."""
     return {
         "format": FORMAT,
-        "scenario": serialize.from_description(pictures.enclosed(record.scenario)),
+        "scenario": serialize.from_description(record.scenario),
         "seed": record.seed,
         "over_message": record.over_message,
         "finished": record.finished,
@@ -103,8 +103,7 @@ def to_record(header: Mapping[str, Any], columns: Columns, *, torn: bool = False
     header states, and various exceptions where this is no record.
     """
     talked = "contents" in columns
-    lost: list[str] = []
-    scenario, missing = serialize.to_scenario(pictures.of_record(header["scenario"], lost))
+    scenario, missing = serialize.to_scenario(header["scenario"])
     robots = {name: tuple(indices) for name, indices in header["sensor_robots"].items()}
     series: dict[str, Any] = {name: columns[name] for name in COLUMNS}
     record = Rows(
@@ -120,7 +119,7 @@ def to_record(header: Mapping[str, Any], columns: Columns, *, torn: bool = False
         finished=header["finished"],
         filename=header["filename"],
         versions=dict(header["versions"]),
-        missing=(*missing, *dict.fromkeys(lost)),
+        missing=missing,
         interventions=tuple(interventions.of_plain(each) for each in header["interventions"]),
         options={name: _tuples(value) for name, value in header.get("settings", {}).items()},
     )
