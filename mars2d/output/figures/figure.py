@@ -112,16 +112,13 @@ def plot_snapshots(record: Rows, times: ArrayLike, *, layers: Layers | None = No
     return axes[0].get_figure()  # type: ignore[return-value]
 
 
-def new_axes(
-    view: View, count: int = 1, cols: int = 1, beside: float = 0.0,
-    room: tuple[float, float] = ROOM,
-) -> list[Axes]:  # fmt: skip
+def new_axes(view: View, count: int = 1, cols: int = 1, beside: float = 0.0) -> list[Axes]:
     """Return axes for drawings of one view in a new figure, in columns, each as large as fits.
 
-    beside: the room at the right, for a legend. room: for one drawing. All in inches.
+    beside: the room at the right, for a legend, inches.
     """
     one, unit, lines = count == 1, points() / 10, ceil(count / cols)
-    width, height = view.inches(*(room if one else (min(PANEL_ROOM, 3 * PANEL_ROOM / cols),) * 2))
+    width, height = view.inches(*(ROOM if one else (min(PANEL_ROOM, 3 * PANEL_ROOM / cols),) * 2))
     left, below, above = 0.65 * unit, 0.55 * unit, (0.55 if one else 0.75) * unit
     across, up = width + 0.2 * unit, height + 0.4 * unit
     wide = left + cols * across + beside
