@@ -167,13 +167,6 @@ class Recorder:
         """Return all messages so far, and the texts to which their field `content` refers."""
         return self._messages.upto(self._message_count), self._contents
 
-    def readings(self, rows: int, name: str, robot: int) -> NDArray[Any] | None:
-        """Return a sensor's readings on a robot, (rows, ...); None if they are not recorded."""
-        column, robots = self._sensors.get(name), self.sensor_robots.get(name, ())
-        if column is None or robot not in robots:
-            return None
-        return column.upto(rows)[:, robots.index(robot)]
-
     def sensors(self) -> dict[str, NDArray[Any]]:
         """Return the readings so far by the names of sensors; see `Record.sensors`."""
         return {name: column.upto(self.rows) for name, column in self._sensors.items()}

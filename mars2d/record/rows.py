@@ -209,7 +209,6 @@ class Rows:
             contacts=self.contacts[slice(*np.searchsorted(self.contact_rows, [row, row + 1]))],
             effort=self.effort[row],
             prop_path=self.prop_pose[:row],
-            effort_path=self.effort[:row],
             contact_log=lambda: self.contacts[: np.searchsorted(self.contact_rows, row, "right")],
             messages=in_flight(
                 self.messages,
@@ -219,7 +218,6 @@ class Rows:
             ),
             command_path=self.command[:row],
             message_log=lambda: (self.messages, self.contents),
-            reading_path=lambda name, robot: self._readings_before(row, name, robot),
             exact_velocity=np.hstack([self.velocity[row], self.prop_velocity[row]]),
             work=self.work[row],
             leaps=self._leaps[: bisect_left(self._leaps, (row + 1, 0))],
@@ -253,11 +251,6 @@ class Rows:
     def pair_forces(self) -> NDArray[np.void]:
         """The mean force of each pair in each control step in which it touched, dtype FORCE."""
         return pair_forces(self.contacts, self.contact_rows, self.scenario.sampling_time)
-
-    def _readings_before(self, row: int, name: str, robot: int) -> NDArray[Any] | None:
-        """Return a sensor's readings on a robot before a row, (row, ...); None if not recorded."""
-        robots = self.sensor_robots.get(name, ())
-        return self.sensors[name][:row, robots.index(robot)] if robot in robots else None
 
     @cached_property
     def _longest_flight(self) -> float:
