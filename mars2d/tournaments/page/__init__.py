@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import base64
-import zlib
+import json
 from itertools import accumulate
 from pathlib import Path
 
@@ -71,9 +70,8 @@ def _page(title: str, body: str, script: str) -> str:
 
 
 def _player(title: str, inside: str) -> str:
-    """Return the page that plays a replay, packed: the parts before and after its data."""
-    parts = player(title, "\0", inside).split("\0")
-    return " ".join(base64.b64encode(zlib.compress(part.encode(), 9)).decode() for part in parts)
+    """Return the page that plays a replay, as JSON: the parts before and after its data."""
+    return json.dumps(player(title, "\0", inside).split("\0")).replace("<", "\\u003c")
 
 
 def _facts(tournament: Tournament, left_out: list[int]) -> dict[str, str]:
