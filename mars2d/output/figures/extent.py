@@ -17,9 +17,6 @@ if TYPE_CHECKING:
 Float = NDArray[np.float64]
 
 
-FARTHEST = 1e100
-"""The greatest coordinate that is drawn, metres: squares of larger numbers overflow."""
-
 RATIO = 8.0
 """The largest ratio of a view's sides; a longer corridor gets margins."""
 
@@ -37,9 +34,6 @@ class View(NamedTuple):
         """Return the view of the workspace, and of all paths until `row`, with a margin."""
         check_rows(record)
         paths = record.pose[: row + 1], record.prop_pose[: row + 1]
-        farthest = max(float(np.abs(path[:, :2]).max(initial=0.0)) for path in paths)
-        if farthest > FARTHEST:
-            raise InputError(f"bodies are up to {farthest:.2g} m away: too far to be drawn")
         return cls.around(record.scenario, *paths)
 
     @classmethod

@@ -10,9 +10,10 @@ from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from mars2d.core.description import real
 from mars2d.core.errors import InputError, shown
 from mars2d.core.files import file_beside
-from mars2d.output.formats.guard import check_limit, reading
+from mars2d.output.formats.guard import reading
 from mars2d.record.rows import Rows
 
 if TYPE_CHECKING:
@@ -62,7 +63,7 @@ def save(record: Rows, path: str | Path) -> Path:
 def load(path: str | Path, largest: float) -> Rows:
     """Read a record in the format that the path's ending names; see `mars2d.load`."""
     source = _path(path)
-    limit = check_limit(largest)
+    limit = int(real("largest", largest, "a number of bytes"))
     with reading(source):
         file_beside(source, None, "a record", SUFFIXES)
     module = _module(source)
