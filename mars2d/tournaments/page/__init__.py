@@ -37,6 +37,9 @@ def league_page(tournament: Tournament) -> str:
     kept = sum(size <= MAX_REPLAYS_SIZE for size in sizes)
     inside, title = read("inside.js"), tournament.schedule.title
     words = {
+        "title": escaped(title),
+        "style": look() + read("page.css"),
+        "script": f"(() => {{\n{read('league.js')}}})();",
         "facts": terms(_facts(tournament, [*replays][kept:])),
         "standings": standing_tables(tournament),
         "grades": grades(tournament),
@@ -49,24 +52,13 @@ def league_page(tournament: Tournament) -> str:
             for number, replay in [*replays.items()][:kept]
         ),
     }
-    return _page(title, filled(read("league.html"), words), read("league.js"))
+    return filled(read("league.html"), words)
 
 
 def save_page(page: str, path: Path) -> None:
     """Write a page to a file. Raises InputError if it can't be written."""
     with atomic_write(path) as file:
         file.write(page.encode("utf-8", errors="replace"))
-
-
-def _page(title: str, body: str, script: str) -> str:
-    """Return a page. script: what it runs besides."""
-    words = {
-        "title": escaped(title),
-        "style": look() + read("page.css"),
-        "body": body,
-        "script": f"(() => {{\n{read('page.js')}{script}}})();",
-    }
-    return filled(read("page.html"), words)
 
 
 def _player(title: str, inside: str) -> str:
