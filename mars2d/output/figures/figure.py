@@ -196,12 +196,7 @@ def check_axes(ax: object) -> None:
 
 def dress(ax: Axes, scenario: Scenario, view: View, layers: Layers | None = None) -> None:
     """Set limits, grid and ticks for an experiment."""
-    dress_plane(ax, view, grid=(layers or layers_of(scenario)).grid)
-    ax.spines[:].set(visible=scenario.workspace is None)
-
-
-def dress_plane(ax: Axes, view: View, *, grid: bool = True) -> None:
-    """Set limits, grid and ticks of a part of the plane."""
+    grid = (layers or layers_of(scenario)).grid
     ax.set_aspect("equal")
     ax.set_xlim(view.xmin, view.xmax)
     ax.set_ylim(view.ymin, view.ymax)
@@ -214,7 +209,7 @@ def dress_plane(ax: Axes, view: View, *, grid: bool = True) -> None:
     ax.grid(visible=grid)
     if grid:
         ax.grid(color=GRID, linewidth=0.6)
-    ax.spines[:].set(color=GRID, linewidth=0.8)
+    ax.spines[:].set(color=GRID, linewidth=0.8, visible=scenario.workspace is None)
 
 
 def style_ticks(ax: Axes) -> None:
