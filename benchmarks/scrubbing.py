@@ -69,7 +69,7 @@ def measure(path: Path, law: str, robots: int, rows: int) -> dict[str, Any]:
     first = timed(lambda: timeline.frame)
     looks = [timed(lambda row=row: look(timeline, row)) for row in chosen]
     back = [branching(timeline, row) for row in chosen[:BRANCHES]]
-    timeline._past._snapshots, timeline._past._every = {}, 0
+    timeline.branch.snapshots = None
     return {
         "run": run,
         "first look": first,

@@ -24,7 +24,7 @@ from mars2d.scenario import open_experiment
 from mars2d.scenario.controllers import FollowWall
 from mars2d.window.compare_window import CompareWindow
 from mars2d.window.editor import Editor
-from mars2d.window.editor.item import Item
+from mars2d.window.editor.draft import Item
 from mars2d.window.run.ghosts import ghosts
 from mars2d.window.run.grab import Grab
 from mars2d.window.run.window import Window
@@ -174,15 +174,16 @@ def hands(path: Path) -> None:
     camera = fitted(world.scenario.bounds, artist.size, artist.layout)
     os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
     pygame.display.init()  # for the keys that are held
-    player, view = SimpleNamespace(playing=True, frame=world.frame), SimpleNamespace(camera=camera)
-    mouse = Grab(player, view, [], lambda at: at, lambda act: act(world) or True, print, {})
+    player = SimpleNamespace(playing=True, frame=world.frame)
+    view = SimpleNamespace(camera=camera, point_at=lambda at: tuple(camera.to_world([at])[0]))
+    mouse = Grab(player, view, [], lambda at: at, lambda act: act(world) or True, {})
 
     def pixel(x: float, y: float) -> tuple[int, int]:
         return tuple(camera.to_pixels([(x, y)])[0].astype(int))
 
     mouse.press(pixel(-1.0, -0.8), pygame.BUTTON_LEFT)
     for k in range(12):
-        mouse.move(pixel(-0.9 + 0.15 * k, -0.7 + 0.1 * k), (0, 0))
+        mouse.move(pixel(-0.9 + 0.15 * k, -0.7 + 0.1 * k))
         world.step()
         player.frame = world.frame
     picture = artist.paint(world.frame)
@@ -210,7 +211,7 @@ def editor(path: Path, drags: tuple[list[tuple[float, float]], ...] = ()) -> Non
     kinds = pygame.MOUSEBUTTONDOWN, pygame.MOUSEMOTION, pygame.MOUSEBUTTONUP
     for points in ([(2, -0.8)] * 3, *drags):
         for kind, point in zip(kinds, points, strict=True):
-            (pixel,) = drawn.desk.camera.to_pixels([point]).round().astype(int).tolist()
+            (pixel,) = drawn.viewpoint.camera.to_pixels([point]).round().astype(int).tolist()
             buttons = {"buttons": (1, 0, 0), "rel": (0, 0)}
             drawn.handle(pygame.event.Event(kind, pos=tuple(pixel), button=1, **buttons))
         drawn.draw(surface)

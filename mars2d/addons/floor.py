@@ -14,7 +14,7 @@ from mars2d.core import checks
 from mars2d.core.description import accepts, entry, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.interfaces import WorldLike
-from mars2d.core.picture import Bounds, Picture, image_bounds, image_file, read_picture
+from mars2d.core.picture import Bounds, Pixels, image_bounds, image_file, read_picture
 from mars2d.core.plane import Outline, Point, bounds_of, inside_polygon, rectangle
 from mars2d.core.scene import Scene, rgb
 from mars2d.core.scene import color as checked_color
@@ -80,8 +80,8 @@ class Floor(Addon):
             raise InputError(f"{type(self).__name__}.bounds {problem}: {where}")
 
     @cached_property
-    def picture(self) -> Picture:
-        """The picture. Raises InputError where its file can't be read."""
+    def picture(self) -> Pixels:
+        """The pixels (rows, columns, 3). Raises InputError where the file can't be read."""
         assert self.image is not None
         return read_picture(f"{type(self).__name__}.image", self.image, self.color)
 
@@ -106,7 +106,7 @@ class Floor(Addon):
         if self.bounds is not None:
             xmin, xmax, ymin, ymax = self.bounds
             if xmin <= x <= xmax and ymin <= y <= ymax:
-                pixels = self.picture.pixels
+                pixels = self.picture
                 rows, columns, _ = pixels.shape
                 row = min(int((ymax - y) / (ymax - ymin) * rows), rows - 1)
                 column = min(int((x - xmin) / (xmax - xmin) * columns), columns - 1)
@@ -128,7 +128,7 @@ class Floor(Addon):
             scene.polygon(area, fill=self.color)
         if self.bounds is not None:
             try:
-                scene.image(self.picture.pixels, self.bounds)
+                scene.image(self.picture, self.bounds)
             except InputError:
                 scene.polygon(rectangle(*self.bounds), fill="#e6e9ed")
                 xmin, xmax, ymin, ymax = self.bounds

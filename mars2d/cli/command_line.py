@@ -156,13 +156,12 @@ class _Root(_Parser):
 
 def _home(_: argparse.Namespace) -> None:
     """Show the home, and run the commands chosen there; print the help if there is no display."""
-    from mars2d.cli.runs import has_display
+    from mars2d.window.screen.display import display_available, started_display
 
-    if not has_display():
+    if not display_available():
         tell(_Root().format_help(), end="")
         return
     from mars2d.window.home import Home
-    from mars2d.window.screen.display import started_display
     from mars2d.window.screen.memory import Memory
 
     note = ""

@@ -11,6 +11,7 @@ from mars2d.core.terminal import tell, warn
 from mars2d.output.raster import require_pygame
 from mars2d.scenario.examples import courses, title_of
 from mars2d.scenario.experiment import Experiment
+from mars2d.window.screen.display import display_available
 from mars2d.world.loop import simulate
 from mars2d.world.world import Watcher, World
 
@@ -18,16 +19,9 @@ if TYPE_CHECKING:
     from mars2d.output.formats.mcap import Log
 
 
-def has_display() -> bool:
-    """Return whether a window could be opened."""
-    from mars2d.window.screen.display import display_available
-
-    return display_available()
-
-
 def opens_window(wanted: bool) -> bool:
     """Return whether a window is wanted and can be opened; warn if it can't be."""
-    if wanted and not has_display():
+    if wanted and not display_available():
         warn("there is no display, so this runs without a window")
         return False
     return wanted
@@ -35,7 +29,7 @@ def opens_window(wanted: bool) -> bool:
 
 def require_display(otherwise: str) -> None:
     """Raise InputError where no window can be opened; otherwise: what there is to say."""
-    if not has_display():
+    if not display_available():
         require_pygame("a window")
         raise InputError(otherwise)
 

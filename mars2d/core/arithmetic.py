@@ -7,6 +7,7 @@ The engine has the same sines: see ``mars2d/physics/islands/arithmetic.py``.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import ceil, floor, fmod, frexp, inf, isfinite, isinf, ldexp, nan, sqrt
 from typing import Any
 
@@ -78,7 +79,7 @@ def angle_of(y: float, x: float) -> float:
     """Return the angle [rad] of a vector (x, y), from -pi to pi; 0 for no vector, or a zero one."""
     high, low = max(abs(x), abs(y)), min(abs(x), abs(y))
     steep = 0.0 if high == 0 else low / high if high < inf else float(low == inf)
-    angle = float(_arctangent(steep))
+    angle = float(_arctangent(steep, lambda first, a, b: a if first else b))
     if abs(y) > abs(x):
         angle = ARCTANGENTS[3] - angle
     if x < 0:
@@ -94,7 +95,7 @@ def angles_of(y: ArrayLike, x: ArrayLike) -> Float:
         return np.array([angle_of(*pair) for pair in pairs]).reshape(x.shape)
     high, low = np.maximum(np.abs(x), np.abs(y)), np.minimum(np.abs(x), np.abs(y))
     steep = np.divide(low, high, out=np.zeros_like(high), where=high > 0)
-    angle = _arctangents(steep)
+    angle: Float = _arctangent(steep, np.where)
     angle = np.where(np.abs(y) > np.abs(x), ARCTANGENTS[3] - angle, angle)
     angle = np.where(x < 0, 2 * ARCTANGENTS[3] - angle, angle)
     return np.where(y < 0, -angle, angle)
@@ -152,24 +153,13 @@ def _cosine_near_zero(r: Any) -> Any:
     return top + (((1.0 - top) - half) + z * z * p)
 
 
-def _arctangent(x: float) -> float:
-    """Return the arctangent of a number from 0 to 1."""
-    if x <= 0.4375:
-        return float(x - x * _arc_share(x))
-    if x < 0.6875:
-        r, begin = (2 * x - 1) / (2 + x), ARCTANGENTS[0]
-    else:
-        r, begin = (x - 1) / (x + 1), ARCTANGENTS[1]
-    return float(begin - (r * _arc_share(r) - r))
-
-
-def _arctangents(x: Float) -> Float:
-    """Return the arctangents of numbers from 0 to 1."""
+def _arctangent(x: Any, choose: Callable[[Any, Any, Any], Any]) -> Any:
+    """Return the arctangent of numbers from 0 to 1; choose: np.where, or the like of it for one."""
     few, some = x <= 0.4375, x < 0.6875
-    r = np.where(few, x, np.where(some, (2 * x - 1) / (2 + x), (x - 1) / (x + 1)))
-    begin = np.where(few, 0.0, np.where(some, ARCTANGENTS[0], ARCTANGENTS[1]))
+    r = choose(few, x, choose(some, (2 * x - 1) / (2 + x), (x - 1) / (x + 1)))
+    begin = choose(few, 0.0, choose(some, ARCTANGENTS[0], ARCTANGENTS[1]))
     share = r * _arc_share(r)
-    return np.asarray(np.where(few, r - share, begin - (share - r)))
+    return choose(few, r - share, begin - (share - r))
 
 
 def _arc_share(r: Any) -> Any:

@@ -13,24 +13,16 @@ from typing import Any
 import numpy as np
 
 from mars2d.core.arithmetic import norms
-from mars2d.core.description import Check, Schema, accepts, real, wrong
+from mars2d.core.description import Check, Schema, accepts, bounded, wrong
 from mars2d.core.errors import InputError, shown
 from mars2d.core.plane import Outline, Point, is_clearly_convex
 from mars2d.core.usercode import definition
-
-MAX_ITEMS = 1_000_000
-"""The longest list that a field may have; an iterator may have no end."""
 
 MAX_COORDINATE = 1e6
 """The largest coordinate, metres: beyond it a double can't resolve a nanometre."""
 
 
-COORDINATE: Schema = {"type": "number", "minimum": -MAX_COORDINATE, "maximum": MAX_COORDINATE}
-POINT: Schema = {"type": "array", "items": COORDINATE, "minItems": 2, "maxItems": 2}
-OUTLINE: Schema = {"type": "array", "items": POINT, "minItems": 2}
-
-
-def items_of(name: str, value: object, expected: str, most: int = MAX_ITEMS) -> list[Any]:
+def items_of(name: str, value: object, expected: str, most: int = 1_000_000) -> list[Any]:
     """Return the items of a list, an array or anything that yields them; no more than `most`."""
     if isinstance(value, (str, bytes, dict)) or not isinstance(value, Iterable):
         raise wrong(name, value, expected)
@@ -43,37 +35,41 @@ def items_of(name: str, value: object, expected: str, most: int = MAX_ITEMS) -> 
     return items
 
 
-def _coordinates(name: str, value: object, items: list[Any], expected: str) -> list[float]:
-    try:
-        numbers = [real(name, item) for item in items]
-    except InputError:
-        raise wrong(name, value, f"{expected}, all of them finite") from None
-    if any(abs(number) > MAX_COORDINATE for number in numbers):
-        raise wrong(name, value, f"{expected}, within +-{MAX_COORDINATE:g}")
-    return numbers
+def several(low: float, high: float, count: int, expected: str, fewer: int = 0) -> Check:
+    """Return a check for so many numbers from low to high, kept as a tuple.
+
+    fewer: how many may be left out at the end; they are 0.
+    """
+    each = bounded(expected, low, high=high)
+    item = vars(each)["schema"]
+
+    @accepts({"type": "array", "items": item, "minItems": count - fewer, "maxItems": count})
+    def check(name: str, value: object) -> tuple[float, ...]:
+        items = items_of(name, value, expected)
+        if not count - fewer <= len(items) <= count:
+            commas = "; decimals have a point: 0.5" if len(items) > count else ""
+            raise wrong(name, value, expected + commas)
+        try:
+            found = [each(name, item) for item in items]
+        except InputError:
+            raise wrong(name, value, expected) from None
+        return (*found, *[0.0] * (count - len(found)))
+
+    return check
 
 
-@accepts(POINT)
-def point(name: str, value: object) -> Point:
-    """Check a point (x, y) in metres."""
-    expected = "a point (x, y) in metres"
-    items = items_of(name, value, expected)
-    if len(items) != 2:
-        raise wrong(name, value, expected)
-    x, y = _coordinates(name, value, items, expected)
-    return x, y
+_FAR = f"within +-{MAX_COORDINATE:g}"
 
+point = several(-MAX_COORDINATE, MAX_COORDINATE, 2, f"a point (x, y) in metres, {_FAR}")
+"""The check of a point (x, y) in metres."""
 
-@accepts(POINT | {"maxItems": 3})
-def pose(name: str, value: object) -> tuple[float, float, float]:
-    """Check a pose (x [m], y [m], theta [rad]); a point (x, y) has theta 0."""
-    expected = "a pose (x, y, theta) in metres and radians"
-    items = items_of(name, value, expected)
-    if len(items) not in (2, 3):
-        commas = "; decimals have a point: 0.5" if len(items) > 3 else ""
-        raise wrong(name, value, expected + commas)
-    x, y, theta = _coordinates(name, value, [*items, 0.0][:3], expected)
-    return x, y, theta
+pose = several(
+    -MAX_COORDINATE, MAX_COORDINATE, 3, f"a pose (x, y, theta) in metres and radians, {_FAR}", 1
+)
+"""The check of a pose (x [m], y [m], theta [rad]); a point (x, y) has theta 0."""
+
+POINT: Schema = vars(point)["schema"]
+OUTLINE: Schema = {"type": "array", "items": POINT, "minItems": 2}
 
 
 @accepts(OUTLINE)

@@ -81,25 +81,6 @@ def bounded(
     return check
 
 
-def several(low: float, high: float, count: int, expected: str, fewer: int = 0) -> Check:
-    """Return a check for so many numbers from low to high, kept as a tuple.
-
-    fewer: how many may be left out at the end; they are 0.
-    """
-    each = bounded(expected, low, high=high)
-    items = vars(each)["schema"]
-
-    @accepts({"type": "array", "items": items, "minItems": count - fewer, "maxItems": count})
-    def check(name: str, value: Any) -> tuple[float, ...]:
-        fits = isinstance(value, (tuple, list, np.ndarray)) and 0 <= count - len(value) <= fewer
-        if not fits:
-            raise wrong(name, value, expected)
-        found = tuple(each(f"{name}[{i}]", item) for i, item in enumerate(value))
-        return found + (0.0,) * (count - len(found))
-
-    return check
-
-
 def _bounds(low: float | None, above: float | None, high: float | None, unit: str) -> str:
     signs = ((">=", low), (">", above), ("<=", high))
     limits = [f"{sign} {limit:g}" for sign, limit in signs if limit is not None]
@@ -314,13 +295,17 @@ class Description:
         """Return the state that is copied and pickled: everything but cached properties."""
         return {k: value for k, value in self.__dict__.items() if k not in self._computed}
 
-    def __repr__(self) -> str:
-        changed = []
+    def _changed(self) -> dict[str, Any]:
+        """Return the fields that differ from their defaults, in order."""
+        found = {}
         for field in dataclasses.fields(self):
             value, made = getattr(self, field.name), field.default_factory
-            default = field.default if made is dataclasses.MISSING else made()
-            if value != default:
-                changed.append(f"{field.name}={shown(value, 200)}")
+            if value != (field.default if made is dataclasses.MISSING else made()):
+                found[field.name] = value
+        return found
+
+    def __repr__(self) -> str:
+        changed = (f"{name}={shown(value, 200)}" for name, value in self._changed().items())
         return f"{type(self).__name__}({', '.join(changed)})"
 
 

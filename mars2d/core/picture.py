@@ -13,8 +13,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.checks import COORDINATE, MAX_COORDINATE
-from mars2d.core.description import accepts, real, wrong
+from mars2d.core.arrays import locked
+from mars2d.core.checks import MAX_COORDINATE, several
+from mars2d.core.description import accepts, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.scene import LARGEST_IMAGE, rgb
 
@@ -31,31 +32,21 @@ def image_file(name: str, value: object) -> str:
     return str(value)
 
 
-@accepts({"type": "array", "items": COORDINATE, "minItems": 4, "maxItems": 4})
+_BOUNDS = "(xmin, xmax, ymin, ymax) in metres with xmin < xmax and ymin < ymax, or None"
+_four = several(-MAX_COORDINATE, MAX_COORDINATE, 4, _BOUNDS)
+
+
+@accepts(vars(_four)["schema"])
 def image_bounds(name: str, value: object) -> Bounds:
     """Check the bounds of an image."""
-    if isinstance(value, (tuple, list, np.ndarray)) and len(value) == 4:
-        xmin, xmax, ymin, ymax = (real(f"{name}[{i}]", item) for i, item in enumerate(value))
-        if xmin < xmax and ymin < ymax and max(-xmin, xmax, -ymin, ymax) <= MAX_COORDINATE:
-            return xmin, xmax, ymin, ymax
-    expected = "(xmin, xmax, ymin, ymax) in metres with xmin < xmax and ymin < ymax, or None"
-    raise wrong(name, value, expected)
+    xmin, xmax, ymin, ymax = _four(name, value)
+    if xmin < xmax and ymin < ymax:
+        return xmin, xmax, ymin, ymax
+    raise wrong(name, value, _BOUNDS)
 
 
-class Picture:
-    """Pixels (rows, columns, 3) that all copies of a part share; the array is read-only."""
-
-    def __init__(self, pixels: Pixels) -> None:
-        """Take the pixels."""
-        pixels.flags.writeable = False
-        self.pixels = pixels
-
-    def __deepcopy__(self, memo: object) -> Picture:
-        return self
-
-
-def read_picture(name: str, image: str, color: str | None = None) -> Picture:
-    """Return the picture in a PNG file; its transparent parts show `color`, or white.
+def read_picture(name: str, image: str, color: str | None = None) -> Pixels:
+    """Return the pixels (rows, columns, 3) of a PNG file, read-only; where clear, `color` or white.
 
     The file is read again only if it has changed. Raises InputError, beginning with `name`, if the
     file is missing, is not a PNG with 8 bits per channel, or is too large.
@@ -65,7 +56,7 @@ def read_picture(name: str, image: str, color: str | None = None) -> Picture:
 
 
 @lru_cache(maxsize=4)
-def _read(name: str, path: Path, version: int, color: str | None) -> Picture:  # noqa: ARG001
+def _read(name: str, path: Path, version: int, color: str | None) -> Pixels:  # noqa: ARG001
     """Return an image laid over a colour; `version` is part of the cache's key."""
     name = f"{name} = {str(path)!r}"
     try:
@@ -83,7 +74,7 @@ def _read(name: str, path: Path, version: int, color: str | None) -> Picture:  #
         share = pixels[clear][:, 3:] / 255
         beneath = 255 * np.array(rgb(color or "#ffffff"))
         result[clear] = np.round(result[clear] * share + beneath * (1 - share))
-    return Picture(result)
+    return locked(result)
 
 
 @contextlib.contextmanager

@@ -7,6 +7,7 @@ opacity, ``#rrggbbaa``.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -47,6 +48,7 @@ NAMED = {
 
 WAKE_LINES = ("--", "-.", "-", ":")
 WAKE_MARKERS = (".", "o", "x", "+", "*", "s")
+WAKE_STYLES = [*WAKE_LINES, *(mark + line for mark in WAKE_MARKERS for line in ("", *WAKE_LINES))]
 
 
 _WORDS = "|".join("".join(f"[{c}{c.upper()}]" for c in word) for word in NAMED)
@@ -61,12 +63,8 @@ def color(name: str, value: object) -> str:
         lower = value.strip().lower()
         if lower in NAMED:
             return NAMED[lower]
-        digits = lower.removeprefix("#")
-        if lower.startswith("#") and all(c in "0123456789abcdef" for c in digits):
-            if len(digits) in (6, 8):
-                return lower
-            if len(digits) == 3:
-                return "#" + "".join(2 * c for c in digits)
+        if re.fullmatch(_HEX, lower):
+            return lower if len(lower) > 4 else "#" + "".join(2 * c for c in lower[1:])
     hint = nearest(value, [k for k in NAMED if len(k) > 1]) if isinstance(value, str) else ""
     raise InputError(f"{name} = {value!r}: expected a colour, '#rrggbb' or a name{hint}")
 
@@ -116,17 +114,11 @@ def color_of(values: Iterable[float]) -> str:
     return "#" + "".join(f"{round(255 * min(max(value, 0.0), 1.0)):02x}" for value in values)
 
 
-@accepts({"type": "string"})
+@accepts({"enum": WAKE_STYLES})
 def wake_style(name: str, value: object) -> str:
     """Check a wake style: a line style of Matlab's plot, a marker, or both, such as ``o--``."""
-    if isinstance(value, str):
-        rest = value
-        for mark in WAKE_MARKERS:
-            if rest.startswith(mark) and rest not in WAKE_LINES:
-                rest = rest[1:]
-                break
-        if value and rest in ("", *WAKE_LINES):
-            return value
+    if isinstance(value, str) and value in WAKE_STYLES:
+        return value
     raise InputError(
         f"{name} = {value!r}: expected a line style ({' '.join(WAKE_LINES)}), "
         f"a marker ({' '.join(WAKE_MARKERS)}), or a marker and a line style, such as 'o--'"

@@ -16,11 +16,8 @@ Shape = tuple[int, ...]
 
 def check_seed(seed: object) -> int:
     """Return the seed as an int. Raises InputError unless it is an integer, 0 to 2**63 - 1."""
-    expected = "a whole number from 0 to 2**63 - 1"
-    if isinstance(seed, bool) or not isinstance(seed, (int, np.integer)):
-        raise wrong("seed", seed, expected)
-    if not 0 <= seed < 2**63:
-        raise wrong("seed", seed, expected)
+    if isinstance(seed, bool) or not isinstance(seed, (int, np.integer)) or not 0 <= seed < 2**63:
+        raise wrong("seed", seed, "a whole number from 0 to 2**63 - 1")
     return int(seed)
 
 

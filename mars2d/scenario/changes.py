@@ -42,11 +42,11 @@ def check_same(before: Scenario, after: Scenario, same: Same = operator.eq) -> N
     same: decides whether two values are the same: `alike` for a scenario that was read again, whose
     laws may have changed.
     """
-    for what in _obstacles(before, after, same):
+    for what in hindrances(before, after, same):
         raise InputError(f"this needs a new start: {what}")
 
 
-def _obstacles(before: Scenario, after: Scenario, same: Same) -> Iterator[str]:
+def hindrances(before: Scenario, after: Scenario, same: Same) -> Iterator[str]:
     """Yield the reasons why a world can't go on."""
     for name in _differing(before, after, same, {*WHOLE, *PARTS, "addons"}):
         yield f"Scenario.{name} is another one"
@@ -78,15 +78,11 @@ def moves_alike(before: Scenario, after: Scenario) -> bool:
 
     For a scenario that `check_same` lets pass: else an engine has to start again.
     """
-    pairs = [*zip(before.robots, after.robots, strict=True)]
-    return (
-        before.joints == after.joints
-        and all(one.drive == other.drive for one, other in pairs)
-        and all(
-            getattr(one, name, None) == getattr(other, name, None)
-            for one, other in [*pairs, *zip(before.props, after.props, strict=True)]
-            for name in MECHANICAL
-        )
+    pairs = zip([*before.robots, *before.props], [*after.robots, *after.props], strict=True)
+    return before.joints == after.joints and all(
+        getattr(one, name, None) == getattr(other, name, None)
+        for one, other in pairs
+        for name in (*MECHANICAL, "drive")
     )
 
 
@@ -140,13 +136,13 @@ def obstruction(scenario: Scenario, poses: Float, body: int) -> str:
     fault = next(faults(scenario, bodies, body), None)
     if fault is None:
         return ""
-    if fault.kind == "obstacle":
-        return f"be in obstacle {fault.other}"
     if fault.kind == "overlap":
         return f"overlap {bodies[fault.other if fault.body == body else fault.body].name}"
-    return (
-        "be outside of the workspace" if fault.kind == "outside" else "be in the workspace's wall"
-    )
+    return {
+        "obstacle": f"be in obstacle {fault.other}",
+        "outside": "be outside of the workspace",
+        "wall": "be in the workspace's wall",
+    }[fault.kind]
 
 
 def alike(first: Any, second: Any) -> bool:
@@ -157,10 +153,7 @@ def alike(first: Any, second: Any) -> bool:
     if first is second:
         return True
     if isinstance(first, Description) and isinstance(second, Description):
-        return type(first).__qualname__ == type(second).__qualname__ and all(
-            hasattr(second, f.name) and alike(getattr(first, f.name), getattr(second, f.name))
-            for f in dataclasses.fields(first)
-        )
+        return _same_kind(first, second) and not any(_differing(first, second, alike))
     if isinstance(first, (tuple, list)) and isinstance(second, (tuple, list)):
         return first == second or (len(first) == len(second) and all(map(alike, first, second)))
     if callable(first) and callable(second):

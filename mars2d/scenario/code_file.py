@@ -1,10 +1,13 @@
-"""Files of Python code: modules of their own, which hold experiments and laws."""
+"""Files of Python code: modules of their own, which hold experiments, laws and lessons."""
 
 from __future__ import annotations
 
+import ast
 import importlib.util
 import inspect
 import itertools
+import os
+import re
 import sys
 import threading
 import traceback
@@ -13,9 +16,10 @@ from functools import partial
 from importlib.machinery import SourceFileLoader
 from pathlib import Path
 from types import ModuleType
-from typing import Any, cast
+from typing import Any, NamedTuple, Self, cast
 
 from mars2d.core import checks
+from mars2d.core.description import wrong
 from mars2d.core.errors import InputError, nearest, one_line
 from mars2d.core.files import note_file
 from mars2d.core.hints import described
@@ -111,3 +115,83 @@ def law_in(
         error.where = definition(law) or file.name
         raise
     return cast("Callable[[Any], Any]", law)
+
+
+EXPECTED = "where a law stands, such as 'walk.py:walk': a file of Python, and a function in it"
+
+MAX_UP = 2
+"""The number of folders up to a file that is still named by a relative path."""
+
+
+class Reference(NamedTuple):
+    """A function by its file and its name there.
+
+    >>> Reference.read("control", "team.py")
+    Reference(file='team.py', name='control')
+    """
+
+    file: str
+    name: str
+
+    @classmethod
+    def of(cls, function: Callable[..., Any] | None) -> Self | None:
+        """Return the reference to a function, with the absolute path of its file.
+
+        None for functions that can't be found by name: lambdas, closures, partials, objects.
+        """
+        if not inspect.isfunction(function):
+            return None
+        file, name = Path(function.__code__.co_filename), function.__name__
+        if function.__globals__.get(name) is not function or file.suffix != ".py":
+            return None
+        return cls(str(file.absolute()), name) if file.is_file() else None
+
+    @classmethod
+    def read(cls, field: str, value: object) -> Self:
+        """Return the reference that ``FILE:FUNCTION`` names; a file alone means its `control`.
+
+        Raises InputError, which begins with `field`, for anything else.
+        """
+        if not isinstance(value, str):
+            raise wrong(field, value, EXPECTED)
+        file, colon, name = value.rpartition(":")
+        if not colon or value.endswith(".py"):  # the colon may be that of C:\walk.py
+            file, name = value, "control"
+        if not file.endswith(".py") or not name.isidentifier():
+            raise wrong(field, value, EXPECTED)
+        return cls(file, name)
+
+
+def seen_from(file: str, folder: Path) -> str:
+    """Return the path of a file seen from `folder`: relative unless it is far away.
+
+    A way that leads through the root of all folders is none: the absolute path is shorter.
+    """
+    whole, here = os.path.normpath(file), os.path.normpath(folder.absolute())
+    try:
+        shared, relative = os.path.commonpath([whole, here]), os.path.relpath(whole, here)
+    except ValueError:  # on another drive
+        return Path(whole).as_posix()
+    near = shared != Path(here).anchor and Path(relative).parts.count("..") <= MAX_UP
+    return Path(relative if near else whole).as_posix()
+
+
+HEADINGS = re.compile(
+    r"(?:^|(?<=[.?!)] ))(Question|Setting|Law(?: \([^)]*\))?|Prediction|Measured|Try|Play|Source): "
+)
+"""The words with which parts of a docstring begin."""
+
+
+def lesson_of(path: Path | None) -> list[tuple[str, str]]:
+    """Return the parts of the docstring of a Python file: headings and texts.
+
+    >>> HEADINGS.split("Question: how far? Source: a book.")
+    ['', 'Question', 'how far? ', 'Source', 'a book.']
+    """
+    if path is None or path.suffix != ".py":
+        return []
+    text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+    first, *rest = HEADINGS.split(" ".join(text.split()))
+    named = zip(rest[::2], rest[1::2], strict=True)
+    parts = [(heading, text.strip()) for heading, text in (("", first), *named)]
+    return [(heading, text[:1].upper() + text[1:]) for heading, text in parts]

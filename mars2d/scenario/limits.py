@@ -58,12 +58,16 @@ def check_centred(name: str, shape: Shape) -> None:
 
 
 def check_bodies(
-    bodies: Sequence[Rigid], max_overlap: float, floors: Mapping[str, float], push: float
+    bodies: Sequence[Rigid],
+    max_overlap: float,
+    floors: Mapping[str, float],
+    push: float,
+    force: float,
 ) -> None:
-    """Refuse bodies that contacts can't hold.
+    """Refuse bodies that contacts can't hold, or that would need too many substeps.
 
     max_overlap: metres. floors: the friction that holds each prop on the floor, by its name. push:
-    of all drives together, newtons.
+    of all drives together, newtons. force: the most that one of them may push with, newtons.
     """
     for body in bodies:
         _check_mass(body)
@@ -91,6 +95,11 @@ def check_bodies(
             f"{largest.kind} {largest.name} is {long:g} m long and {thinnest.kind} {thinnest.name} "
             f"{thin:g} m thin; contacts hold a ratio of at most {SIZE_RATIO:g}"
         )
+    if max_overlap < (needed := force / least / MAX_PUSH):
+        expected = f"at least {needed:.3g} m where a drive may push with {force:g} N"
+        raise wrong(
+            "Scenario.max_overlap", max_overlap, f"{expected} and {lightest.name} has {least:g} kg"
+        )
 
 
 def _check_mass(body: Rigid) -> None:
@@ -110,15 +119,7 @@ def _check_mass(body: Rigid) -> None:
 
 
 def _check_motion(body: Rigid, fastest: float) -> None:
-    """Refuse an impossible surface of a user's own prop, and a body that starts too fast."""
-    friction, restitution, static = body.surface
-    most = friction if static is None else static
-    if not (0 <= friction <= most <= 1e3 and 0 <= restitution <= 1):
-        raise wrong(
-            f"{body.kind}.surface of {body.name}", tuple(body.surface),
-            "friction >= 0 and <= 1000, restitution >= 0 and <= 1, static_friction >= friction "
-            "and <= 1000, or None",
-        )  # fmt: skip
+    """Refuse a body that starts too fast."""
     vx, vy, omega = body.velocity
     speed = norm(vx, vy) + abs(omega) * body.shape.reach
     if not speed <= fastest:
@@ -150,19 +151,6 @@ def check_drive(name: str, drive: Drive, arm: float) -> None:
             f"{arm:.4g} m off the centre of rotation goes at {spin * arm:.4g} m/s then, and "
             f"{MAX_SPEED:g} m/s is the most"
         )
-
-
-def check_forces(bodies: Sequence[Rigid], drives: Sequence[Drive], max_overlap: float) -> None:
-    """Refuse an overlap so small that the drives' forces would need too many substeps."""
-    lightest = min(bodies, key=lambda body: body.inertia.mass)
-    force = max(drive.max_force for drive in drives)
-    least = force / lightest.inertia.mass / MAX_PUSH
-    if max_overlap < least:
-        raise wrong(
-            "Scenario.max_overlap", max_overlap,
-            f"at least {least:.3g} m where a drive may push with {force:g} N and {lightest.name} "
-            f"has {lightest.inertia.mass:g} kg",
-        )  # fmt: skip
 
 
 def check_ends(where: str, joint: Joint, names: Collection[str]) -> None:

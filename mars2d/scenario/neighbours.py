@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import numbers
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
 from operator import index
@@ -13,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.arithmetic import norm, norms
-from mars2d.core.checks import instance, items_of
+from mars2d.core.checks import instance
 from mars2d.core.description import Description, entry, integer, number, wrong
 from mars2d.core.errors import InputError, LawError, counted, shown
 from mars2d.core.plane import WITHIN
@@ -83,10 +82,6 @@ def _checked(of: Callable[[Any, Float], Neighbours]) -> Callable[[Any, Float], N
         return rows
 
     return checked
-
-
-def _whole(value: object) -> bool:
-    return isinstance(value, numbers.Integral) and not isinstance(value, bool)
 
 
 class Everyone(Neighbourhood):
@@ -221,36 +216,22 @@ EXPECTED = "an adjacency matrix (n, n) of numbers, or a pair (n, edges)"
 
 def _edges(name: str, value: Any) -> tuple[int, Edges]:
     """Check a graph, and return the number of its nodes and its edges in order."""
-    if isinstance(value, (list, tuple)) and len(value) == 2 and _whole(value[0]):
-        return _of_pairs(name, *value)
     try:
-        matrix = np.asarray(value)
-    except ValueError:  # rows of different lengths
-        raise wrong(name, value, EXPECTED) from None
-    if matrix.dtype.kind not in "biuf" or matrix.ndim != 2:
+        if len(value) == 2 and np.ndim(value[0]) == 0:
+            nodes, edges = index(value[0]), [(index(i), index(j)) for i, j in value[1]]
+        else:
+            matrix = np.array(value, dtype=float)
+            nodes, columns = matrix.shape
+            edges = [(i, j) for i, j in np.argwhere(matrix).tolist()]
+            nodes = nodes if nodes == columns and np.isfinite(matrix).all() else 0
+    except (TypeError, ValueError):
+        nodes = 0
+    if nodes < 1:
         raise wrong(name, value, EXPECTED)
-    n, columns = matrix.shape
-    if n != columns:
-        raise InputError(f"{name}: a matrix {n} x {columns}: expected as many columns as rows")
-    if not np.isfinite(matrix).all():
-        raise wrong(name, value, "finite numbers, 0 for no edge")
-    return _of_pairs(name, n, np.argwhere(matrix != 0).tolist())
-
-
-def _of_pairs(name: str, n: int, edges: Any) -> tuple[int, Edges]:
-    if n < 1:
-        raise wrong(name, (n, edges), "at least one node")
-    expected = f"a list of edges (i, j), with i and j from 0 to {n - 1}"
-    found = set()
-    for edge in items_of(f"{name}: edges", edges, expected):
-        pair = tuple(edge) if isinstance(edge, Iterable) else ()
-        if len(pair) != 2 or not all(_whole(i) and 0 <= i < n for i in pair):
-            raise wrong(f"{name}: edge", edge, expected)
-        i, j = map(int, pair)
-        if i == j:
-            raise InputError(f"{name}: an edge from {i} to {j}: no robot is its own neighbour")
-        found.add((i, j))
-    return int(n), tuple(sorted(found))
+    for i, j in edges:
+        if i == j or min(i, j) < 0 or max(i, j) >= nodes:
+            raise wrong(f"{name}: edge", (i, j), f"two different robots, from 0 to {nodes - 1}")
+    return nodes, tuple(sorted({*edges}))
 
 
 class Graph(Neighbourhood):

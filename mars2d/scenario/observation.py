@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Sequence
 from math import inf, isfinite
 from typing import Any, NamedTuple, Self
@@ -12,7 +11,7 @@ from numpy.typing import NDArray
 
 from mars2d.bodies.drives.base import Drive
 from mars2d.core.arithmetic import cosine_sine, norm
-from mars2d.core.errors import InputError, nearest, shown
+from mars2d.core.errors import InputError, shown
 from mars2d.scenario.scenario import Scenario
 
 Float = NDArray[np.float64]
@@ -134,30 +133,6 @@ class Observation:
                 SEEN[part.name](view)
         self(view)
 
-    def to_json(self) -> list[dict[str, Any]]:
-        """Return the parts as JSON, with None for a bound that is infinite."""
-
-        def finite(bounds: Sequence[float]) -> list[float | None]:
-            return [x if isfinite(x) else None for x in bounds]
-
-        return [{"name": p.name, "low": finite(p.low), "high": finite(p.high)} for p in self.parts]
-
-    @classmethod
-    def of_json(cls, given: Any) -> Self:
-        """Return the observation that `to_json` has described. Raises InputError for others."""
-        parts = []
-        try:
-            for each in given:
-                bounds = zip(each["low"], each["high"], strict=True)
-                low, high = zip(*((_or(a, -inf), _or(b, inf)) for a, b in bounds), strict=True)
-                parts.append(Part(str(each["name"]), low, high))
-        except (TypeError, KeyError, ValueError) as error:
-            raise InputError(f"its observation is {shown(json.dumps(given))}") from error
-        for name in (part.name for part in parts):
-            if name not in SEEN and not name.startswith(SENSED):
-                raise InputError(f"its observation has a part {name!r}{nearest(name, SEEN)}")
-        return cls(parts)
-
 
 class Action(NamedTuple):
     """Turns shares, from -1 to 1, into a command (m,): from its least value to its largest one."""
@@ -182,10 +157,6 @@ class Action(NamedTuple):
             low + (high - low) * (min(max(share, -1.0), 1.0) + 1) / 2
             for low, high, share in zip(*self, shares, strict=True)
         )
-
-
-def _or(number: float | None, infinite: float) -> float:
-    return infinite if number is None else float(number)
 
 
 def _numbers_of(reading: Any, name: str) -> Float:

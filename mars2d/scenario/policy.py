@@ -9,10 +9,10 @@ from typing import Any, NoReturn
 
 import numpy as np
 
-from mars2d.core.errors import InputError, LawError, Mars2dError, likely, one_line, shown
+from mars2d.core.errors import InputError, LawError, Mars2dError, likely, nearest, one_line, shown
 from mars2d.core.extras import extra
 from mars2d.core.files import note_file
-from mars2d.scenario.observation import Action, Observation
+from mars2d.scenario.observation import SEEN, SENSED, Action, Observation, Part
 
 SUFFIX = ".onnx"
 
@@ -28,9 +28,12 @@ def describe(
     experiment, robot: where it was learned, so that `mars2d check` can try it there.
     """
     described = {
-        "observation": observation.to_json(), "action": action._asdict(), "drive": drive,
-        "experiment": experiment, "robot": robot,
-    }  # fmt: skip
+        "observation": [part._asdict() for part in observation.parts],
+        "action": action._asdict(),
+        "drive": drive,
+        "experiment": experiment,
+        "robot": robot,
+    }
     return json.dumps(described)
 
 
@@ -76,11 +79,16 @@ class Policy:
             low, high = (tuple(map(float, action[end])) for end in ("low", "high"))
             self.action = Action(low, high)
             self.experiment, self.robot = str(given["experiment"]), str(given["robot"])
-            self.observation = Observation.of_json(given["observation"])
-        except InputError as error:
-            self._refuse(str(error))
+            parts = [
+                Part(each["name"], *(tuple(map(float, each[end])) for end in ("low", "high")))
+                for each in given["observation"]
+            ]
         except (ValueError, TypeError, KeyError):
             self._refuse(f"has metadata {KEY!r} that can't be read{hint}")
+        for name in (part.name for part in parts):
+            if name not in SEEN and not name.startswith(SENSED):
+                self._refuse(f"its observation has a part {name!r}{nearest(name, SEEN)}")
+        self.observation = Observation(parts)
         taken, made = self._session.get_inputs(), self._session.get_outputs()[0]
         size = len(self.observation.low)
         if [(each.type, each.shape[-1]) for each in taken] != [("tensor(float)", size)]:

@@ -7,19 +7,19 @@ import importlib
 from mars2d.core.description import Description
 
 FAMILIES = {
-    "bodies": ("mars2d.bodies.drives", "Drive"),
-    "props": ("mars2d.bodies.props", "Prop"),
-    "joints": ("mars2d.bodies.joints", "Joint"),
-    "sensors": ("mars2d.sensors", "Sensor"),
-    "controllers": ("mars2d.scenario.controllers", "Controller"),
-    "addons": ("mars2d.addons", "Addon"),
+    "bodies": ("mars2d.bodies.drives", "Drive", "Drives"),
+    "props": ("mars2d.bodies.props", "Prop", "Props"),
+    "joints": ("mars2d.bodies.joints", "Joint", "Joints"),
+    "sensors": ("mars2d.sensors", "Sensor", "Sensors"),
+    "controllers": ("mars2d.scenario.controllers", "Controller", "Ready-made laws"),
+    "addons": ("mars2d.addons", "Addon", "Add-ons"),
 }
-"""The families of parts: the package that holds them, and their base class."""
+"""The families of parts: the package that holds them, their base class, and their title."""
 
 
 def members(family: str) -> dict[str, type[Description]]:
     """Return the classes of a family (``"sensors"``, ``"addons"``, ``"bodies"``) by name."""
-    name, base_name = FAMILIES[family]
+    name, base_name, _ = FAMILIES[family]
     package = importlib.import_module(name)
     base = getattr(package, base_name)
     parts = {name: getattr(package, name) for name in package.__all__}
@@ -31,7 +31,7 @@ def members(family: str) -> dict[str, type[Description]]:
 
 def family_of(kind: type[Description]) -> str | None:
     """Return the family of one of MARS2D's own parts, None for any other class."""
-    packages = ((family, package) for family, (package, _) in FAMILIES.items())
+    packages = ((family, package) for family, (package, *_) in FAMILIES.items())
     return next((f for f, package in packages if kind.__module__.startswith(package)), None)
 
 

@@ -31,7 +31,7 @@ from mars2d.scenario.material_pair import MaterialPair, check_once
 from mars2d.scenario.neighbours import Everyone, Neighbourhood, neighbourhood
 from mars2d.scenario.random_starts import RandomStarts, Room, poses_of, room_of
 from mars2d.scenario.robot import Robot
-from mars2d.scenario.stop_on import CONTACT, Pairs, bodies_named, stop_on
+from mars2d.scenario.roles import CONTACT, Pairs, bodies_named, stop_on
 
 PHYSICS = ("contact", "stop", "ideal")
 
@@ -221,9 +221,8 @@ class Scenario(Description):
             limits.check_centred(where, known_shape(where, shape))
         floors = {str(prop.name): prop.resting_friction for prop in self.props}
         push = sum(robot.push for robot in self.robots)
-        limits.check_bodies(self.bodies, self.max_overlap, floors, push)
-        drives = [robot.drive for robot in self.robots]
-        limits.check_forces(self.bodies, drives, self.max_overlap)
+        force = max(robot.drive.max_force for robot in self.robots)
+        limits.check_bodies(self.bodies, self.max_overlap, floors, push, force)
 
     def _check_joints(self) -> None:
         """Refuse joints of unknown bodies, and joints that would pull them at once."""
@@ -430,12 +429,15 @@ class Scenario(Description):
 
 
 def index_among(field: str, kind: str, wanted: str | int, names: list[str]) -> int:
-    """Return the place of a name among others, or a place that there is; else InputError."""
-    if isinstance(wanted, str):
-        if wanted not in names:
-            raise InputError(f"{field}: there is no {kind} {wanted!r}{nearest(wanted, names)}")
-        return names.index(wanted)
-    if not 0 <= wanted < len(names):
+    """Return the place of a name among others, or a place that there is; else InputError.
+
+    A name of digits that none of them has is a place.
+    """
+    if wanted in names:
+        return names.index(str(wanted))
+    if isinstance(wanted, str) and not wanted.isdecimal():
+        raise InputError(f"{field}: there is no {kind} {wanted!r}{nearest(wanted, names)}")
+    if not 0 <= int(wanted) < len(names):
         raise InputError(f"{field}: there is no {kind} {wanted}; they are 0 to {len(names) - 1}")
     return int(wanted)
 

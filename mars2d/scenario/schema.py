@@ -8,11 +8,10 @@ from typing import Any
 from mars2d.core import checks
 from mars2d.core.description import Description, Schema, schema_of
 from mars2d.scenario import serialize
-from mars2d.scenario.pretty import NONE
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import Place
-from mars2d.scenario.toml_file import FORMAT, READY_MADE, takes_none
+from mars2d.scenario.toml_file import FORMAT, NONE, READY_MADE, takes_none
 
 LAW: Schema = {
     "type": "string",

@@ -62,12 +62,6 @@ def kinds_of(base: type[Description]) -> dict[str, type[Description]]:
     return {kind.__name__: kind for kind in all_kinds().values() if issubclass(kind, base)}
 
 
-def kind_of(plain: dict[str, Any]) -> type[Description] | None:
-    """Return the class of a part that `from_description` made plain; None if it is not known."""
-    name = plain.get("type")
-    return all_kinds().get(name) if isinstance(name, str) else None
-
-
 def is_ready_made(kind: type | None) -> bool:
     """Return whether a class is one of the ready-made laws, which a file can name."""
     return kind in kinds_of(Controller).values()
@@ -83,15 +77,9 @@ def changed(part: Description, index: int = 0) -> dict[str, Any]:
     {'mass': 2.0}
     """
     kind = "robot" if isinstance(part, Robot) else snake_case(type(part).__name__)
-    found = {}
-    for field in dataclasses.fields(part):
-        value = getattr(part, field.name)
-        factory = field.default_factory
-        usual = field.default if factory is dataclasses.MISSING else factory()
-        named = field.name == "name" and isinstance(part, (Robot, Prop))
-        by_itself = named and value == f"{kind}{index}"
-        if not (by_itself or usual == value):  # without a default, MISSING equals nothing
-            found[field.name] = value
+    found = part._changed()
+    if isinstance(part, (Robot, Prop)) and part.name == f"{kind}{index}":
+        del found["name"]
     return found
 
 
@@ -199,8 +187,9 @@ def _to_description(value: Any, missing: list[str]) -> Any:
         missing.append(f"{value['type']}, with its function {lost}")
         return _LEFT_OUT
     fields = {name: _to_description(each, missing) for name, each in read.items()}
-    if "controller" in value and is_ready_made(kind_of(value["controller"] or {})):
-        fields["controller"] = _to_description(value["controller"], missing)
+    law = value.get("controller")
+    if law and is_ready_made(all_kinds().get(law.get("type"))):
+        fields["controller"] = _to_description(law, missing)
     if "own" in value:
         missing.append(f"{value['own']} {value['type']}")
         if value["own"] == "prop":

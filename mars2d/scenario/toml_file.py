@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 import re
 import tomllib
 from collections.abc import Callable, Iterator
@@ -15,15 +16,14 @@ from pathlib import Path
 from typing import Any
 
 from mars2d.core.description import Description, wrong
-from mars2d.core.errors import InputError, likely, nearest, shown
+from mars2d.core.errors import InputError, likely, nearest, one_line, shown
 from mars2d.core.files import atomic_write, file_beside
+from mars2d.core.materials import Coefficient
 from mars2d.core.picture import image_file
 from mars2d.core.usercode import name_of
 from mars2d.scenario import serialize
-from mars2d.scenario.code_file import law_in, located
+from mars2d.scenario.code_file import Reference, law_in, located, seen_from
 from mars2d.scenario.controllers import Controller
-from mars2d.scenario.law_reference import Reference, seen_from
-from mars2d.scenario.pretty import NONE, WIDTH, Node, comment, flat, laid_out, plain, quoted
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import Place
@@ -40,6 +40,16 @@ SCHEMA_FILE = "mars2d.schema.json"
 
 HEADS = ("format", "control")
 """The keys of a file that are no fields of its scenario."""
+
+WIDTH = 100
+"""Columns of a line with a table or a list; a longer one takes several."""
+
+NONE = "none"
+"""The text that stands for None."""
+
+
+Node = str | list[Any] | dict[str, Any]
+"""A value as text, a list of values, or a table."""
 
 Law = Callable[[Any], Any]
 
@@ -70,7 +80,7 @@ def save_scenario(
 
 
 class _Writer:
-    """Writes a scenario as the text of a file in a folder.
+    """Turns a scenario into the text of a file in a folder.
 
     missing: the parts that were left out.
     """
@@ -83,82 +93,108 @@ class _Writer:
         """Return the whole file."""
         kept, lost = serialize.without_code(scenario)
         self.missing += lost
-        head = [f"#:schema {SCHEMA_FILE}"]
-        head += [comment(f"A scenario of MARS2D. Run it: mars2d run {filename}")]
-        head += [comment(f"{serialize.LOST}: {name}") for name in lost]
-        team = [] if control is None else [self._law("control", control)]
-        if control is None and not any(robot.controller for robot in kept.robots):
-            team = [
-                '# control = "my_law.py:control"  # a law of the team; without one it stands still'
-            ]
-        return "\n".join([*head, "", f"format = {FORMAT}", *team, *self._table(kept, "")]) + "\n"
+        team = "" if control is None else self._law("control", control)
+        whole = {"format": plain(FORMAT), **({"control": team} if team else {})}
+        lines = tables(whole | self._table(kept, Place(Scenario)))
+        if not team and not any(robot.controller for robot in kept.robots):
+            hint = "a law of the team; without one it stands still"
+            lines.insert(1, f'# control = "my_law.py:control"  # {hint}')
+        head = [f"A scenario of MARS2D. Run it: mars2d run {filename}"]
+        head += [f"{serialize.LOST}: {name}" for name in dict.fromkeys(self.missing)]
+        if any(name.startswith("law ") for name in self.missing):
+            head.append('A law is named by its place: controller = "file.py:function"')
+        head = [f"#:schema {SCHEMA_FILE}", *(f"# {one_line(each)}" for each in head), ""]
+        return "\n".join([*head, *lines]) + "\n"
 
-    def _table(self, part: Description, path: str, index: int = 0) -> list[str]:
-        """Return the lines of a part's table, without its header.
+    def _table(self, part: Description, place: Place, index: int = 0) -> dict[str, Any]:
+        """Return a part as a table; its type stands in it unless only one is possible there.
 
-        path: its name and a full stop; empty for the scenario. index: its place in its list.
+        index: its place in its list.
         """
-        lines, below = [], []
-        fields, places = serialize.changed(part, index), serialize.parts_of(type(part))
+        kind = type(part)
+        fields, places = serialize.changed(part, index), serialize.parts_of(kind)
+        table: dict[str, Any] = {} if kind is place.base else {"type": quoted(kind.__name__)}
         for name in sorted(fields, key=lambda field: field != "name"):
-            value, place = fields[name], places.get(name)
-            if place is None or value is None:
-                law = callable(value) and not serialize.is_ready_made(type(value))
-                lines.append(self._law(name, value) if law else self._line(part, name, value))
-            elif place.many:
-                for i, item in enumerate(value):
-                    below += ["", f"[[{path}{name}]]", *_type(place, item)]
-                    below += self._table(item, f"{path}{name}.", i)
-            elif len(line := self._line(part, name, value)) <= WIDTH and (path or "{" not in line):
-                lines.append(line)
-            else:
-                below += ["", f"[{path}{name}]", *_type(place, value)]
-                below += self._table(value, f"{path}{name}.")
-        return lines + below
+            value, check = fields[name], kind.__dataclass_fields__[name].metadata.get("check")
+            if check is image_file and value is not None and Path(value).is_absolute():
+                table[name] = quoted(seen_from(value, self.folder))
+            elif not callable(value) or serialize.is_ready_made(type(value)):
+                table[name] = self._node(value, places.get(name, Place(Description)))
+            elif law := self._law(name, value):
+                table[name] = law
+        return table
 
-    def _line(self, part: Description, name: str, value: Any) -> str:
-        """Return the line of a field, or the lines of a long list."""
-        return laid_out(self._node(part, name, value), f"{name} = ")
-
-    def _law(self, field: str, law: Law | str) -> str:
-        """Return the line that names a law, or a comment that says why it is missing."""
-        if isinstance(law, str):
-            Reference.read(field, law)
-            return f"{field} = {quoted(law)}"
-        found = Reference.of(law)
-        if found is None:
-            self.missing.append(f"law {name_of(law)}")
-            hint = f'add {field} = "file.py:function"'
-            return comment(f"law: {name_of(law)} can't be written down; {hint}")
-        return f"{field} = {quoted(f'{seen_from(found.file, self.folder)}:{found.name}')}"
-
-    def _node(self, part: Description, name: str, value: Any) -> Node:
-        """Return the value of a field."""
-        place = serialize.parts_of(type(part)).get(name, Place(Description))
-        check = type(part).__dataclass_fields__[name].metadata.get("check")
-        if check is image_file and value is not None and Path(value).is_absolute():
-            return quoted(seen_from(value, self.folder))
-        return self._plain(value, place)
-
-    def _plain(self, value: Any, place: Place) -> Node:
-        """Return a value in TOML; a part as a table in one line, or as its type if that says all.
-
-        place: where it stands.
-        """
+    def _node(self, value: Any, place: Place) -> Node:
+        """Return a value in TOML. place: where it stands."""
         if isinstance(value, Description):
-            fields = serialize.changed(value).items()
-            items = [f"{k} = {flat(self._node(value, k, v))}" for k, v in fields]
-            inside = ", ".join([*_type(place, value), *items])
-            return f"{{ {inside} }}" if items else quoted(type(value).__name__)
+            return self._table(value, place)
         if isinstance(value, (list, tuple)):
-            return [self._plain(item, place) for item in value]
+            return [
+                self._table(item, place, i) if place.many else self._node(item, place)
+                for i, item in enumerate(value)
+            ]
         return plain(value)
 
+    def _law(self, field: str, law: Law | str) -> str:
+        """Return the place of a law in TOML, or "" where it has none."""
+        if isinstance(law, str):
+            Reference.read(field, law)
+            return quoted(law)
+        if (found := Reference.of(law)) is None:
+            self.missing.append(f"law {name_of(law)}")
+            return ""
+        return quoted(f"{seen_from(found.file, self.folder)}:{found.name}")
 
-def _type(place: Place, part: Description) -> list[str]:
-    """Return the line with the type of a part, unless only one type is possible."""
-    kind = type(part)
-    return [] if kind is place.base else [f"type = {quoted(kind.__name__)}"]
+
+def tables(table: dict[str, Any], path: str = "") -> list[str]:
+    """Return the lines of a table, and of those in it that fit in no line, below their headers.
+
+    path: its name and a full stop; empty for that of the whole file.
+    """
+    lines, below = list[str](), list[str]()
+    for name, value in table.items():
+        line, inner = f"{name} = {flat(value)}", list[Any]()
+        if isinstance(value, list) and any(isinstance(item, dict) for item in value):
+            inner, header = value, f"[[{path}{name}]]"
+        elif isinstance(value, dict) and (len(line) > WIDTH or ("{" in line and not path)):
+            inner, header = [value], f"[{path}{name}]"
+        elif isinstance(value, list) and len(line) > WIDTH:
+            lines += [f"{name} = [", *(f"    {flat(item)}," for item in value), "]"]
+        else:
+            lines.append(line)
+        for item in inner:
+            below += ["", header, *tables(item, f"{path}{name}.")]
+    return lines + below
+
+
+def flat(node: Node) -> str:
+    """Return a node as text in one line; a table of a type alone is its type."""
+    if isinstance(node, dict):
+        items = ", ".join(f"{name} = {flat(value)}" for name, value in node.items())
+        return flat(node["type"]) if [*node] == ["type"] else f"{{ {items} }}"
+    return node if isinstance(node, str) else f"[{', '.join(map(flat, node))}]"
+
+
+def plain(value: Any) -> str:
+    """Return a number, a word or a material as text; numbers are read back bit for bit."""
+    if value is None:
+        return quoted(NONE)
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return quoted(value)
+    if isinstance(value, Coefficient):
+        return quoted(value.material)
+    return repr(float(value) if isinstance(value, float) else int(value))
+
+
+def quoted(text: str) -> str:
+    r"""Return text in double quotes.
+
+    >>> print(quoted('a "wall"\n'))
+    "a \"wall\"\n"
+    """
+    return json.dumps(str(text), ensure_ascii=False).replace("\x7f", r"\u007f")
 
 
 # -- reading -----------------------------------------------------------------------------------
@@ -250,12 +286,8 @@ class _Reader:
                 self.path.name, f"no scenario: the first line should be format = {FORMAT}"
             )
         with self._pointing("", "format"):
-            found = data["format"]
-            if type(found) is not int or found < 1:
-                raise wrong("format", found, str(FORMAT))
-            if found > FORMAT:
-                newer = f"newer than this MARS2D, which reads {FORMAT}"
-                raise InputError(f"format = {found}: {newer}")
+            if data["format"] != FORMAT:
+                raise wrong("format", data["format"], f"{FORMAT}, which this MARS2D reads")
         fields = {name: value for name, value in data.items() if name not in HEADS}
         scenario = self._part(Place(Scenario, default=Scenario), fields, "")
         assert isinstance(scenario, Scenario)

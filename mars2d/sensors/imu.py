@@ -8,7 +8,8 @@ from typing import Any, ClassVar
 import numpy as np
 
 from mars2d.core.arithmetic import cosine_sine, norm
-from mars2d.core.description import entry, several
+from mars2d.core.checks import several
+from mars2d.core.description import entry
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene
@@ -17,7 +18,6 @@ from mars2d.sensors.surroundings import Surroundings
 
 ARROW = 0.2
 """The length of an arrow for an acceleration of 1 m/s^2, metres."""
-
 
 _three = several(-1e6, 1e6, 3, "three numbers, for (ax, ay) [m/s^2] and omega [rad/s]")
 _three_spreads = several(0.0, 1e6, 3, "three numbers >= 0, for (ax, ay) and omega")

@@ -8,7 +8,8 @@ from typing import Any, ClassVar
 import numpy as np
 
 from mars2d.core.arithmetic import cosine_sine
-from mars2d.core.description import choice, entry, number, several, wrong
+from mars2d.core.checks import several
+from mars2d.core.description import choice, entry, number, wrong
 from mars2d.core.interfaces import RobotLike
 from mars2d.core.quantity import Quantity
 from mars2d.core.scene import Scene
@@ -54,9 +55,8 @@ class Odometry(Sensor):
         doc="assumed over true radius of the left and the right wheel",
     )  # fmt: skip
     semiaxis_scale: float = number(
-        default=1.0, low=1e-3, high=1e3,
-        doc="assumed over true distance of the wheels",
-    )  # fmt: skip
+        default=1.0, low=1e-3, high=1e3, doc="assumed over true distance of the wheels"
+    )
     origin: str = choice(
         default="start", of=("start", "world"),
         doc="the frame of the estimate: the pose at the start, or the world",

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import time
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-import numpy as np
 import pygame
 
 from mars2d.core.errors import counted
@@ -22,22 +20,21 @@ from mars2d.output.figures.comparison import (
     Drift,
 )
 from mars2d.output.films.footage import Cut
-from mars2d.output.raster.bars import Status, draw_footer, draw_header
+from mars2d.output.layers.table import Layers
+from mars2d.output.raster.bars import Status, draw_header
 from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
-from mars2d.output.raster.picture import summary
 from mars2d.output.raster.stage import Stage
 from mars2d.record.frame import Frame
-from mars2d.window.run import keys
-from mars2d.window.run.mouse import Mouse, Pixel
+from mars2d.window.run.mouse import Handle, Mouse, Pixel
 from mars2d.window.run.player_window import PlayerWindow
 from mars2d.window.run.toolbar import Toolbar
 from mars2d.window.screen.display import Preferences
 from mars2d.window.screen.source import Trio
 from mars2d.window.screen.viewpoint import Viewpoint
-from mars2d.window.widgets.actions import Action
-from mars2d.window.widgets.plot import Limits, draw_axes, polylines
+from mars2d.window.widgets.plot import Axes
+from mars2d.window.widgets.slider import Slider
 
 LEFT, RIGHT, HEAD, FOOT = 72.0, 24.0, 34.0, 26.0
 """The room round the axes, points."""
@@ -46,8 +43,6 @@ MIN_TIME = 2.0
 SIZE, SIGN = 13.0, 48.0
 """The height of letters above it, and the room for the sign of a curve, points."""
 TITLE = "Distance from where contact puts a body"
-
-
 HIDDEN = 0.01
 """How near a curve has to be to another to be hidden by it, in parts of the axis."""
 
@@ -58,22 +53,13 @@ def _alike(one: Drift, other: Drift, name: str, apart: float) -> bool:
     return all(abs(a - b) < apart for a, b in both)
 
 
-class DriftPlot:
-    """Draws the largest and the mean drift of "stop" and "ideal"; a click on it is a time."""
+class DriftPlot(Slider):
+    """Draws the largest and the mean drift of "stop" and "ideal"; a press on it is a time."""
 
-    def __init__(self) -> None:
-        """Start with nothing drawn."""
-        self.area = pygame.Rect(0, 0, 0, 0)
-        self._end = 1.0
-
-    def hit(self, pixel: tuple[int, int]) -> bool:
-        """Return whether a pixel is within the axes."""
-        return bool(self.area.collidepoint(pixel))
-
-    def time_at(self, x: float) -> float:
-        """Return the time at a pixel from the left, seconds."""
-        share = (x - self.area.left) / max(1, self.area.width)
-        return min(max(share, 0.0), 1.0) * self._end
+    @property
+    def area(self) -> pygame.Rect:
+        """Where the axes were drawn."""
+        return self._line
 
     def draw(
         self,
@@ -94,33 +80,35 @@ class DriftPlot:
         surface.fill(theme.paper, rect)
         surface.fill(theme.edge, (rect.left, rect.top, rect.width, 1))
         farthest = max(float(drift.max.max(initial=0.0)) for drift in drifts.values())
-        agree, self._end = farthest < NO_DRIFT, max(end, MIN_TIME)
-        limits = Limits(0.0, self._end, 0.0, 1.0 if agree else 1.06 * farthest)
+        agree, self.high = farthest < NO_DRIFT, max(end, MIN_TIME)
+        high = 1.0 if agree else 1.06 * farthest
         words, above = dict[tuple[str, str], str](), drifts[next(iter(drifts))]
         for mode, drift in drifts.items():
             for name, *_ in CURVES:
-                hidden = drift is not above and _alike(drift, above, name, HIDDEN * limits.high)
+                hidden = drift is not above and _alike(drift, above, name, HIDDEN * high)
                 words[mode, name] = f"{mode}, {name}{': the same' * hidden}"
         need = sum(fonts.width(word, SIZE) + SIGN for word in words.values())
         wide = rect.width - round((LEFT + RIGHT) * ui)
         large = max(ui, min(largest, wide / need))
         left, top = rect.left + round(LEFT * ui), rect.top + round(HEAD * large)
-        self.area = area = pygame.Rect(left, top, wide, rect.bottom - top - round(FOOT * ui))
+        area = pygame.Rect(left, top, wide, rect.bottom - top - round(FOOT * ui))
+        self._line = self._area = area
         if area.width <= 0 or area.height <= 0:
             return
-        draw_axes(surface, area, painter, limits, "m")
+        axes = Axes(area, 0.0, self.high, 0.0, high)
+        axes.draw(surface, painter, "m")
         right, middle = area.right, (rect.top + area.top) // 2
         for mode, drift in reversed(list(drifts.items())):
             for name, dash, width in reversed(CURVES):
                 look = {"stroke": COLORS[mode], "width": width, "style": dash}
-                for points in polylines(area, limits, drift.time, getattr(drift, name)):
+                for points in axes.lines(drift.time, getattr(drift, name)):
                     scene.line(points * (1, -1), **look)
                 at, size = (right, middle), SIZE * large
                 place = painter.write(surface, words[mode, name], size, theme.text, midright=at)
                 left = place.left - round(30 * large)
                 scene.line([(left, -middle), (left + 24 * large, -middle)], **look)
                 right = left - round(14 * large)
-        x = float(limits.pixels(area, np.array([now]), np.zeros(1))[0, 0])
+        x = axes.x_of(now)
         scene.line([(x, -area.top), (x, -area.bottom)], stroke=theme.selected, width=1.2)
         painter.paint(surface, scene.shapes, PIXELS)
         if agree:
@@ -131,7 +119,6 @@ class DriftPlot:
             painter.write(surface, TITLE, SIZE * large, theme.ink, bold=True, midleft=at)
 
 
-HINTS = (("Space", "pause"), ("← →", "step"), ("N", "contact"), ("F1", "help"))
 TITLE_HEIGHT = 74.0
 """The height of the title above an arena, points."""
 WIDE, TALL, SMALLEST = 290.0, 390.0, 0.75
@@ -164,7 +151,7 @@ class CompareWindow(PlayerWindow):
         self._stages = {mode: Stage(self.looks.painter) for mode in MODES}
         self.viewpoint = Viewpoint(trio.scenario, self._arrange(self.looks.layout(size)))
         self._leave_out_names(self._ui)
-        handles = [*self._controls.handles, (self.plot.hit, self._scrub)]
+        handles = [*self.handles, Handle(self.plot.hit, self._scrub)]
         self.mouse = Mouse(self.viewpoint, handles, self._place)
         self.toolbar = Toolbar(self._actions, self._is_on, self.menu, live=True)
 
@@ -179,20 +166,13 @@ class CompareWindow(PlayerWindow):
         for moment in cut.moments.tolist():
             while step * self.trio.row < moment - 1e-9 and not self.trio.over:
                 self.trio.advance()
-            self._draw_runs(surface, self.looks.layout(size, 0.0), moment, Status(status))
+            layout = self.looks.layout(size, 0.0)
+            latest = self._draw_runs(surface, layout, self.layers, moment)
+            draw_header(surface, layout, self.looks.painter, latest, Status(status))
             yield surface
 
-    def draw(self, surface: pygame.Surface, *, notes: bool = True) -> None:
-        """Draw the window on a surface; the layout follows its size."""
-        painter, frame, pointer = self.looks.painter, self.player.frame, self._pointer
-        layout = self._layout(surface.get_size())
-        self._draw_runs(surface, layout, frame.time, Status(*self.player.status()))
-        self._controls.draw(surface, layout, painter, pointer, self.mouse.drags)
-        draw_footer(surface, layout, painter, self._ending.banner(), summary(frame), HINTS)
-        self.toolbar.draw(surface, layout, painter, pointer)
-        if notes:
-            self.notes.draw(surface, layout.plot, painter, time.monotonic())
-        self.help.draw(surface, layout, painter, self._help())
+    def _draw_picture(self, surface: pygame.Surface, layout: Layout, layers: Layers) -> None:
+        self._draw_runs(surface, layout, layers, self.player.frame.time)
 
     def _arrange(self, layout: Layout) -> Layout:
         """Give arenas and plot their places; return a layout whose picture is the first arena."""
@@ -213,16 +193,15 @@ class CompareWindow(PlayerWindow):
         return replace(layout, plot=self.plots[MODES[0]], ui=ui)
 
     def _draw_runs(
-        self, surface: pygame.Surface, layout: Layout, moment: float, status: Status
-    ) -> None:
-        """Draw the header, the arenas and the plot at a time [s]."""
+        self, surface: pygame.Surface, layout: Layout, layers: Layers, moment: float
+    ) -> Frame:
+        """Draw the arenas and the plot at a time [s]; return the latest frame."""
         painter, trio = self.looks.painter, self.trio
         theme = painter.theme
         self.viewpoint.arrange(self._arrange(layout), trio.scenario)
         painter.ui = self._ui
         surface.fill(theme.page)
         frames, counts = trio.frames(moment), trio.collisions(moment)
-        layers = self.layers if self.player.error is None else self._own_layers()
         first = self.plots[MODES[0]]
         for mode, plot in self.plots.items():
             camera = self.viewpoint.camera.panned(plot.left - first.left, 0)
@@ -237,8 +216,7 @@ class CompareWindow(PlayerWindow):
         end = trio.scenario.sampling_time * trio.newest
         self.plot.draw(surface, self._plot_place, painter, trio.drifts, moment, end, layout.ui)
         painter.ui = layout.ui
-        latest = max(frames.values(), key=lambda frame: frame.time)
-        draw_header(surface, layout, painter, latest, status)
+        return max(frames.values(), key=lambda frame: frame.time)
 
     def _draw_title(
         self, surface: pygame.Surface, mode: str, frame: Frame, collisions: int
@@ -265,14 +243,6 @@ class CompareWindow(PlayerWindow):
             at = left, level + (43 + 17 * k) * ui
             painter.write(surface, line, 13.5 * ui, color, midleft=at)
 
-    def _help(self) -> list[tuple[str, list[Action]]]:
-        """Return the keys that do something here, in their groups."""
-        return [
-            (group, [key for key in each if key.name in self._actions])
-            for group, each in keys.GROUPS.items()
-            if group != "Mouse"
-        ]
-
     # -- events ---------------------------------------------------------------------------------
 
     def _place(self, pixel: Pixel) -> Pixel | None:
@@ -285,15 +255,5 @@ class CompareWindow(PlayerWindow):
 
     def _scrub(self, pixel: Pixel) -> None:
         """Go to the time at a pixel of the plot."""
-        at = self.plot.time_at(pixel[0])
+        at = self.plot.value_at(pixel[0])
         self.player.go(round(at / self.trio.scenario.sampling_time))
-
-    # -- commands -------------------------------------------------------------------------------
-
-    def _save_picture(self) -> None:
-        """Save a picture of the three arenas and the plot."""
-        size = self.layout.size
-        surface = pygame.Surface(size, 0, 32)
-        time, status = self.player.frame.time, Status(*self.player.status())
-        self._draw_runs(surface, self.looks.layout(size, 0.0), time, status)
-        self.saver.picture(surface)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache, partial
+from math import inf
 from pathlib import Path
 
 import pygame
@@ -214,6 +215,7 @@ class Home:
             self.search.clear()
         if self.search.text != before:
             self.page.chosen = 0
+            self.page.turn(-inf)  # where it is seen
         return taken
 
     def _watch(self) -> None:

@@ -34,18 +34,6 @@ BUFFER = 1.0
 WHO = "a robot's index or name, a list of these, or None for all in reach"
 
 
-class _Sent(NamedTuple):
-    """A message of the present control step: its receivers, and whether it reaches them."""
-
-    sender: int
-    step: int  # the iteration
-    arrival: int  # the iteration at whose begin it arrives
-    text: str
-    size: int
-    receivers: Int  # (k,)
-    status: NDArray[np.uint8]  # (k,), as far as it is known
-
-
 class _Letter(NamedTuple):
     """A message for all its receivers."""
 
@@ -71,11 +59,11 @@ class Channel:
         """Take the world, and the live add-on, whose random stream is used."""
         self._world, self._model = world, model
         self._names = [str(robot.name) for robot in world.scenario.robots]
-        self._sent: list[_Sent] = []
+        # Those of the present control step: when they arrive, an iteration, and rows of MESSAGE.
+        self._sent: list[tuple[_Letter, int, NDArray[np.void]]] = []
         self._free: dict[int, float] = defaultdict(float)  # when a sender has sent all, s
         self._coming: dict[int, list[tuple[_Letter, Int]]] = {}  # by the iteration of arrival
-        self._arrived: list[tuple[_Letter, Int]] = []  # letters and their receivers
-        self._letters: list[list[_Letter]] | None = None  # the same by receiver, once asked for
+        self._letters: dict[int, list[_Letter]] = {}  # that have arrived, by receiver
         self._inbox: dict[int, tuple[Message, ...]] = {}  # as far as it was asked for
         self._links: dict[tuple[int, int], tuple[float, bool]] = {}  # when known as bad, s
         self._hearers: tuple[int, list[Int]] = (-1, [])
@@ -83,62 +71,57 @@ class Channel:
     def inbox(self, robot: int) -> tuple[Message, ...]:
         """Return the messages that have arrived for a robot at the present control step."""
         if robot not in self._inbox:
-            if self._letters is None:
-                self._letters = [[] for _ in self._names]
-                for letter, receivers in self._arrived:
-                    for receiver in receivers.tolist():
-                        self._letters[receiver].append(letter)
-            self._inbox[robot] = tuple([letter.opened() for letter in self._letters[robot]])
+            letters = self._letters.get(robot, ())
+            self._inbox[robot] = tuple([letter.opened() for letter in letters])
         return self._inbox[robot]
 
     def deliver(self) -> None:
         """Fill the inboxes with the messages that arrive now; empty all others."""
         coming = self._coming.pop(self._world.iteration, [])
-        self._arrived = sorted(coming, key=lambda item: item[0].sender)
-        self._letters, self._inbox = None, {}
+        self._letters, self._inbox = defaultdict(list), {}
+        for letter, receivers in sorted(coming, key=lambda item: item[0].sender):
+            for receiver in receivers.tolist():
+                self._letters[receiver].append(letter)
 
     def send(self, sender: int, content: Any, to: Any) -> None:
         """Take a message of a robot. Raises LawError if it can't be recorded, or for a wrong `to`.
 
         to: an index or a name, a list of these, or None for all in reach.
         """
-        text = as_text(content)
+        world, text = self._world, as_text(content)
         size = len(text.encode())
         receivers = self._receivers(sender, to)
         reached = self._reached(sender, receivers)
         if to is None:
             receivers, reached = receivers[reached], reached[reached]
-        step, now = self._world.iteration, self._world.time
         takes = size / (self._model.bandwidth or inf)
-        sent = max(now, self._free[sender]) + takes
-        fits = sent - now <= BUFFER + ROUNDING
+        sent = max(world.time, self._free[sender]) + takes
+        fits = sent - world.time <= BUFFER + ROUNDING
         if fits:
             self._free[sender] = sent
         going = ON_ITS_WAY if fits else OVER_BANDWIDTH
-        status = np.where(reached, going, OUT_OF_REACH).astype(np.uint8)
-        dt = self._world.scenario.sampling_time
-        arrival = step + max(1, steps_until(sent - now + self._model.delay, dt))
-        self._sent.append(_Sent(sender, step, arrival, text, size, receivers, status))
+        delay = sent - world.time + self._model.delay
+        arrival = world.iteration + max(1, steps_until(delay, world.sampling_time))
+        rows = np.empty(len(receivers), dtype=MESSAGE)
+        rows["time"], rows["sender"], rows["size"] = world.time, sender, size
+        rows["receiver"], rows["arrival"] = receivers, arrival * world.sampling_time
+        rows["status"] = np.where(reached, going, OUT_OF_REACH)
+        self._sent.append((_Letter(sender, self._names[sender], world.time, text), arrival, rows))
 
     def transmit(self) -> None:
         """Send off the messages of the present control step, and record them."""
-        sent, self._sent = sorted(self._sent, key=lambda item: item.sender), []
-        dt = self._world.scenario.sampling_time
-        for sender, step, arrival, text, size, receivers, status in sent:
-            if not len(receivers):
+        sent, self._sent = sorted(self._sent, key=lambda item: item[0].sender), []
+        for letter, arrival, rows in sent:
+            if not len(rows):
                 continue
+            receivers, status = rows["receiver"], rows["status"]
             going = np.flatnonzero(status == ON_ITS_WAY)
-            status[going[self._lost(sender, receivers[going], step * dt)]] = LOST
+            status[going[self._lost(letter.sender, receivers[going], letter.time)]] = LOST
             arrives = status == ON_ITS_WAY
+            rows["arrival"][~arrives] = nan
             if arrives.any():
-                letter = _Letter(sender, self._names[sender], step * dt, text)
-                coming = self._coming.setdefault(arrival, [])
-                coming.append((letter, receivers[arrives]))
-            rows = np.empty(len(receivers), dtype=MESSAGE)
-            rows["time"], rows["sender"], rows["size"] = step * dt, sender, size
-            rows["arrival"] = np.where(arrives, arrival * dt, nan)
-            rows["receiver"], rows["status"] = receivers, status
-            self._world.recorder.write_messages(text, rows)
+                self._coming.setdefault(arrival, []).append((letter, receivers[arrives]))
+            self._world.recorder.write_messages(letter.text, rows)
 
     def _lost(self, sender: int, receivers: Int, time: float) -> NDArray[np.bool_]:
         """Return the receivers that lose a message, as a mask (k,). Perfect links draw nothing."""

@@ -35,8 +35,7 @@ def moments_of(world: World, before: Frame, command: Any = None) -> list[Frame]:
     begun = (simulation.contacts["time"] - before.time).tolist()
     within = {span * k / PARTS for k in range(1, PARTS)}
     within |= {t for t in begun if ROUNDING < t / span < 1 - ROUNDING}
-    frames = [_moment(world, before, engine.fork(), t, t / span) for t in sorted(within)]
-    return [*frames, _moment(world, before, engine.fork(), span, 1.0)]
+    return [_moment(world, before, engine.fork(), t, t / span) for t in [*sorted(within), span]]
 
 
 def _moment(

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from math import ceil, dist, sqrt
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,11 +15,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from mars2d.core import checks
 from mars2d.core.arithmetic import cosine_sine, norm
-from mars2d.core.description import real, wrong
+from mars2d.core.description import bounded, wrong
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Point
 from mars2d.physics.engine import Engine, Kinematics
-from mars2d.record.interventions import Change, Intervention, Place, Pull, Push, Steer
+from mars2d.record.interventions import Change, Intervention, Place, Pull, Push, Steer, Triple
 from mars2d.scenario.changes import check_same, moves_alike, obstruction, with_poses
 from mars2d.scenario.scenario import Scenario
 from mars2d.world.laws import refuse, robot_command
@@ -37,6 +39,9 @@ STIFFNESS = 24.0
 
 MAX_FORCE, MAX_SPEED = 1e6, 100.0
 """The bounds of a pull, N and m/s; quicker ones need ever more substeps."""
+FORCE = bounded(f"a number > 0 and <= {MAX_FORCE:g} [N]", above=0, high=MAX_FORCE)
+SPEED = bounded(f"a number > 0 and <= {MAX_SPEED:g} [m/s]", above=0, high=MAX_SPEED)
+DURATION = bounded("a number > 0 [s]", above=0)
 
 ROUNDING = 1e-9
 """The rounding error of a point of a body, in parts of the body's radius."""
@@ -48,32 +53,57 @@ TINY = 1e-12
 class Operator:
     """Changes a world from outside, besides the commands of its laws.
 
-    log: all of it but the commands, in order, as data; see `mars2d.record.interventions`.
+    log: all of it but the commands, in order, as data; see `mars2d.record.interventions`. held: the
+    robots that stand still until the end, by index. driven: the commands (m,) of robots that are
+    driven, by index. pulls: those that act now, by body.
     """
 
     def __init__(self, world: Simulation) -> None:
         """Take the world; nothing is done to it yet."""
         self._world = world
-        self._driven: dict[int, tuple[float, ...]] = {}
-        self._steered: set[int] = set()  # those that the log says are driven
-        self._pulls: dict[int, Pull] = {}
-        self._pushes: list[Push] = []
-        self._held: list[int] = []
-        self._force: dict[int, float] = {}
         self.log: list[Intervention] = []
+        self.held: list[int] = []
+        self.driven: dict[int, tuple[float, ...]] = {}
+        self.pulls: dict[int, Pull] = {}
+        self._steered: set[int] = set()  # those that the log says are driven
+        self._pushes: list[Push] = []
+        self._force: dict[int, float] = {}
+
+    def redo(self, log: Sequence[Intervention], scenario_of: Callable[[Change], Scenario]) -> None:
+        """Do again what the log of another world of this run says of the present row.
+
+        scenario_of: returns the scenario of a change, with laws that fit this world.
+        """
+        row, by_row = self._world.iteration, attrgetter("row")
+        for each in log[bisect_left(log, row, key=by_row) : bisect_right(log, row, key=by_row)]:
+            again = each
+            if isinstance(each, Change):
+                control = self._world.laws.function
+                again = replace(each, scenario=scenario_of(each), control=control)
+            self.do(again)
+
+    def do(self, what: Intervention) -> None:
+        """Do something at this instant, and log it."""
+        if isinstance(what, Pull):
+            self._pull(what)
+            return
+        if isinstance(what, Place):
+            self._place(what)
+        elif isinstance(what, Change):
+            self._change(what)
+        elif isinstance(what, Push):
+            self._pushes.append(what)
+        else:
+            (self._steered.add if what.driven else self._steered.discard)(what.robot)
+        self.log.append(what)
 
     # -- commands -----------------------------------------------------------------------------
 
     def hold(self, robot: str | int) -> None:
         """Let a robot stand still from now on, whatever its law or the operator commands."""
         index = self._world.scenario.index_of("World.hold", robot)
-        if index not in self._held:
-            self._held.append(index)
-
-    @property
-    def held(self) -> Sequence[int]:
-        """The robots that stand still until the end, by index."""
-        return tuple(self._held)
+        if index not in self.held:
+            self.held.append(index)
 
     def steer(self, robot: str | int, command: ArrayLike | None) -> None:
         """Give a robot this command (m,) from now on in place of its law's; None: its law's again.
@@ -82,44 +112,29 @@ class Operator:
         """
         index = self._world.scenario.index_of("Operator.steer", robot)
         if command is None:
-            self._drive_no_more(index)
-            return
-        inputs = self._world.scenario.robots[index].drive.inputs
-        numbers = robot_command(command, inputs, partial(refuse, "Operator.steer: the command"))
-        if index not in self._steered:
-            self._note(Steer(self._world.iteration, index, driven=True))
-        self._driven[index] = numbers
-
-    def _drive_no_more(self, robot: int) -> None:
-        self._driven.pop(robot, None)
-        if robot in self._steered:
-            self._note(Steer(self._world.iteration, robot, driven=False))
-
-    def _note(self, steer: Steer) -> None:
-        """Log that a robot is driven from now on, or no more."""
-        (self._steered.add if steer.driven else self._steered.discard)(steer.robot)
-        self.log.append(steer)
+            self.driven.pop(index, None)
+        else:
+            inputs = self._world.scenario.robots[index].drive.inputs
+            say = partial(refuse, "Operator.steer: the command")
+            self.driven[index] = robot_command(command, inputs, say)
+        if (index in self._steered) != (index in self.driven):
+            self.do(Steer(self._world.iteration, index, driven=index in self.driven))
 
     def let_go(self) -> None:
         """Let go of all robots that are driven and all bodies that are pulled; pushes go on."""
         for robot in sorted(self._steered):
-            self._drive_no_more(robot)
-        for pull in self.pulls:
+            self.steer(robot, None)
+        for pull in [*self.pulls.values()]:
             self._pull(replace(pull, row=self._world.iteration, target=None))
-
-    @property
-    def driven(self) -> Sequence[int]:
-        """The robots that are driven, by index."""
-        return tuple(self._driven)
 
     def command(self, wanted: Float) -> Float:
         """Return the laws' commands (m, n), replaced for robots that are driven or held."""
-        if not (self._driven or self._held):
+        if not (self.driven or self.held):
             return wanted
         given = wanted.copy()
-        for robot, command in self._driven.items():
+        for robot, command in self.driven.items():
             given[: len(command), robot] = command
-        given[:, self._held] = 0.0
+        given[:, self.held] = 0.0
         return given
 
     # -- bodies -------------------------------------------------------------------------------
@@ -130,27 +145,32 @@ class Operator:
         body: its name or index in `Scenario.bodies`. Sensors are read before. Raises InputError
         where it would overlap something, and for a body that a joint holds.
         """
-        world = self._world
-        index = world.scenario.body_index_of("Operator.place", body)
-        place = Place(world.iteration, index, checks.pose("Operator.place(pose)", pose))
-        fault = fixed(world.scenario, index)
-        if fault:
+        index = self._world.scenario.body_index_of("Operator.place", body)
+        where = checks.pose("Operator.place(pose)", pose)
+        self.do(Place(self._world.iteration, index, where))
+
+    def _place(self, place: Place) -> None:
+        world, body = self._world, place.body
+        if fault := fixed(world.scenario, body):
             raise InputError(fault)
         world.observe()
-        poses = np.hstack([world.pose, world.prop_pose])
-        poses[:, index] = place.pose
-        fault = obstruction(world.scenario, poses, index)
-        if fault:
-            name = world.scenario.bodies[index].name
+        if fault := obstruction(world.scenario, self._poses({body: place.pose}), body):
+            name = world.scenario.bodies[body].name
             raise InputError(f"{name} can't be put there: it would {fault}")
-        world.move({index: place.pose})
-        self.log.append(place)
+        world.move({body: place.pose})
+
+    def _poses(self, moved: Mapping[int, Triple]) -> Float:
+        """Return the poses (3, n + p) of all bodies, with some that were moved."""
+        poses = np.hstack([self._world.pose, self._world.prop_pose])
+        for body, pose in moved.items():
+            poses[:, body] = pose
+        return poses
 
     def change(
         self,
         scenario: Scenario,
         control: Callable[[Any], Any] | None = None,
-        moved: Mapping[int, tuple[float, float, float]] | None = None,
+        moved: Mapping[int, Triple] | None = None,
         options: Mapping[str, Any] | None = None,
         given: frozenset[str | None] = frozenset(),
     ) -> None:
@@ -158,24 +178,19 @@ class Operator:
 
         given: the names of robots that get other laws by hand; these hold if the run is repeated.
         """
-        world, moved = self._world, dict(moved or {})
+        where, made = tuple((moved or {}).items()), tuple((options or {}).items())
+        self.do(Change(self._world.iteration, scenario, where, control, made, given))
+
+    def _change(self, change: Change) -> None:
+        world, scenario, moved = self._world, change.scenario, dict(change.moved)
         check_same(world.scenario, scenario)
-        if control is not None:
-            checks.function("control", control, "the world")
+        if change.control is not None:
+            checks.function("control", change.control, "the world")
         world.observe()
         stays = not moved and scenario.surfaces == world.scenario.surfaces
         moves_on = stays and moves_alike(world.scenario, scenario)
-        if stays:
-            changed = scenario
-        else:
-            poses = np.hstack([world.pose, world.prop_pose])
-            for body, pose in moved.items():
-                poses[:, body] = pose
-            changed = with_poses(scenario, poses)
-        made = tuple((options or {}).items())
-        where = tuple(moved.items())
-        self.log.append(Change(world.iteration, scenario, where, control, made, given))
-        world.go_on(changed, control, None if moves_on else moved)
+        changed = scenario if stays else with_poses(scenario, self._poses(moved))
+        world.go_on(changed, change.control, None if moves_on else moved)
 
     def pull(
         self,
@@ -192,19 +207,9 @@ class Operator:
         m/s. Raises InputError where no forces act, as with physics="stop".
         """
         index, point = self._gripped("Operator.pull", body, grip)
-        pull = Pull(
-            self._world.iteration,
-            index,
-            point,
-            None if target is None else checks.point("Operator.pull(target)", target),
-            real("Operator.pull(force)", force),
-            real("Operator.pull(speed)", speed),
-        )
-        if not 0 < pull.force <= MAX_FORCE:
-            raise wrong("Operator.pull(force)", force, f"a number > 0 and <= {MAX_FORCE:g} [N]")
-        if not 0 < pull.speed <= MAX_SPEED:
-            raise wrong("Operator.pull(speed)", speed, f"a number > 0 and <= {MAX_SPEED:g} [m/s]")
-        self._pull(pull)
+        to = None if target is None else checks.point("Operator.pull(target)", target)
+        most = FORCE("Operator.pull(force)", force), SPEED("Operator.pull(speed)", speed)
+        self.do(Pull(self._world.iteration, index, point, to, *most))
 
     def push(
         self, body: str | int, force: Point, duration: float, grip: Point = (0.0, 0.0)
@@ -216,23 +221,16 @@ class Operator:
         """
         index, point = self._gripped("Operator.push", body, grip)
         acts = checks.point("Operator.push(force)", force)
-        lasts = real("Operator.push(duration)", duration)
         if not 0 < norm(*acts) <= MAX_FORCE:
             raise wrong("Operator.push(force)", force, f"more than 0 and up to {MAX_FORCE:g} [N]")
-        if lasts <= 0:
-            raise wrong("Operator.push(duration)", duration, "a number > 0 [s]")
-        self._push(Push(self._world.iteration, index, point, acts, lasts))
-
-    def _push(self, push: Push) -> None:
-        self._pushes.append(push)
-        self.log.append(push)
+        lasts = DURATION("Operator.push(duration)", duration)
+        self.do(Push(self._world.iteration, index, point, acts, lasts))
 
     def _gripped(self, call: str, body: str | int, grip: Point) -> tuple[int, Point]:
         """Return the index of a body that forces can move, and a point of it."""
         scenario = self._world.scenario
         index = scenario.body_index_of(call, body)
-        fault = forceless(scenario, index)
-        if fault:
+        if fault := forceless(scenario, index):
             raise InputError(fault)
         point = checks.point(f"{call}(grip)", grip)
         center, radius = scenario.bodies[index].shape.bound
@@ -244,41 +242,19 @@ class Operator:
         """Keep the last pull of a body, and log it in place of others of the same control step."""
         said = [i for i in self.log if isinstance(i, Pull) and i.body == pull.body]
         if said and said[-1].row == pull.row:
-            last = said.pop()
-            self.log = [i for i in self.log if i is not last]
-        before = said[-1] if said else None
-        going_on = None if before is None or before.target is None else before
+            self.log.remove(said.pop())
+        before = said[-1] if said and said[-1].target is not None else None
         if pull.target is None:
-            self._pulls.pop(pull.body, None)
+            self.pulls.pop(pull.body, None)
         else:
-            self._pulls[pull.body] = pull
-        same = going_on is not None and replace(going_on, row=pull.row) == pull
-        if not same and (pull.target is not None or going_on is not None):
+            self.pulls[pull.body] = pull
+        said_so = None if before is None else replace(before, row=pull.row)
+        if pull != said_so and (before or pull.target is not None):
             self.log.append(pull)
-
-    @property
-    def pulls(self) -> Sequence[Pull]:
-        """The pulls that act now."""
-        return tuple(self._pulls.values())
 
     def force(self, body: int) -> float:
         """Return the force on a body at the end of the last control step, N."""
         return self._force.get(body, 0.0)
-
-    def redo(self, intervention: Intervention) -> None:
-        """Repeat an intervention in another world of the same run."""
-        if isinstance(intervention, Place):
-            self.place(intervention.body, intervention.pose)
-        elif isinstance(intervention, Change):
-            moved, options = dict(intervention.moved), dict(intervention.options)
-            scenario, given = intervention.scenario, intervention.given
-            self.change(scenario, intervention.control, moved, options, given)
-        elif isinstance(intervention, Steer):
-            self._note(intervention)
-        elif isinstance(intervention, Push):
-            self._push(intervention)
-        else:
-            self._pull(intervention)
 
     # -- motion -------------------------------------------------------------------------------
 
@@ -287,7 +263,7 @@ class Operator:
     ) -> None:
         """Let an engine move everything for `duration` seconds, under pulls and pushes."""
         self._force = {}
-        if not ((self._pulls or self._pushes) and isinstance(engine, Engine)):
+        if not ((self.pulls or self._pushes) and isinstance(engine, Engine)):
             engine.drive(twist, duration, time)
             return
         dt, begin = self._world.sampling_time, 0.0
@@ -302,7 +278,7 @@ class Operator:
         self, engine: Engine, twist: Float, duration: float, time: float, pushes: Sequence[Push]
     ) -> None:
         """Do so while the pulls and the same pushes act."""
-        if not (self._pulls or pushes):
+        if not (self.pulls or pushes):
             engine.drive(twist, duration, time)
             return
         count = ceil(duration / min(SLICE, self._longest_slice(engine, pushes)))
@@ -312,13 +288,17 @@ class Operator:
             engine.let_go()
             loads = {
                 body: self._spring(pull, poses[:, body], velocities[:, body])
-                for body, pull in self._pulls.items()
+                for body, pull in self.pulls.items()
             }
             for push in pushes:
-                own, others = _pushed(push, float(poses[2, push.body])), loads.get(push.body)
-                loads[push.body] = own if others is None else _sum(own, others)
-            for body, load in loads.items():
-                self._load(engine, body, *load)
+                theta = poses[2, push.body] + velocities[2, push.body] * h / 2  # in the middle
+                fx, fy, torque = _pushed(push, float(theta))
+                x, y, turning = loads.get(push.body, (0.0, 0.0, 0.0))
+                loads[push.body] = fx + x, fy + y, torque + turning
+            for body, (fx, fy, torque) in loads.items():
+                self._force[body] = norm(fx, fy)
+                if not engine.withstands(body, norm(fx, fy), abs(torque)):
+                    engine.pull(body, (fx, fy), torque)
             engine.drive(twist, h, time + k * h)
         engine.let_go()
 
@@ -327,16 +307,10 @@ class Operator:
         bodies = self._world.scenario.bodies
         most = [
             min(pull.force / bodies[pull.body].inertia.mass, 4 * STIFFNESS * pull.speed)
-            for pull in self._pulls.values()
+            for pull in self.pulls.values()
         ]
         most += [norm(*push.force) / bodies[push.body].inertia.mass for push in pushes]
         return engine.step_under(max(most))
-
-    def _load(self, engine: Engine, body: int, fx: float, fy: float, torque: float) -> None:
-        """Let a force and a torque act on a body, unless it withstands them."""
-        self._force[body] = norm(fx, fy)
-        if not engine.withstands(body, norm(fx, fy), abs(torque)):
-            engine.pull(body, (fx, fy), torque)
 
     def _spring(self, pull: Pull, pose: Float, velocity: Float) -> Load:
         """Return the force [N] and the torque [N m] of a spring on a body at a pose (3,)."""
@@ -366,17 +340,13 @@ def _pushed(push: Push, theta: float) -> Load:
     return fx, fy, (c * x - s * y) * fy - (s * x + c * y) * fx
 
 
-def _sum(one: Load, other: Load) -> Load:
-    return one[0] + other[0], one[1] + other[1], one[2] + other[2]
-
-
 def forceless(scenario: Scenario, body: int) -> str:
     """Return the reason why a body can't be pulled, or ""."""
     if scenario.physics == "contact":
         return ""
     return (
         f"{scenario.bodies[body].name} can't be pulled: with physics = {scenario.physics!r} no "
-        "forces act; put it elsewhere instead"
+        "forces act; pause, and put it elsewhere"
     )
 
 

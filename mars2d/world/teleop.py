@@ -21,9 +21,9 @@ class Stick(NamedTuple):
     ahead: float = 0.0
     turn: float = 0.0
 
-    def within(self, most: float = 1.0) -> Stick:
-        """Return the same direction with a deflection of at most `most`."""
-        share = most / max(norm(self.across, self.ahead), most)
+    def within(self) -> Stick:
+        """Return the same direction with a deflection of at most 1."""
+        share = 1.0 / max(norm(self.across, self.ahead), 1.0)
         return Stick(share * self.across, share * self.ahead, self.turn)
 
     def command(self, drive: Drive) -> tuple[float, ...]:

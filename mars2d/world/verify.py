@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from operator import itemgetter
 
 import numpy as np
@@ -14,7 +13,6 @@ from mars2d.core.arithmetic import norms
 from mars2d.core.errors import InputError
 from mars2d.physics.versions import versions
 from mars2d.record.contact import rows_of
-from mars2d.record.interventions import Change, Intervention
 from mars2d.scenario.scenario import Scenario
 from mars2d.scenario.serialize import MOVING
 from mars2d.world.record import Record
@@ -56,16 +54,9 @@ def rerun(record: Record, progress: Callable[[int], None] | None = None) -> Depa
     on_exit = "ignore" if record.scenario.on_exit == "stop" else record.scenario.on_exit
     scenario = _in_motion(record.scenario).replace(stop_time=longer, on_exit=on_exit)
     world = World(scenario, seed=record.seed)
-    done: dict[int, list[Intervention]] = defaultdict(list)
-    for each in record.interventions:
-        moves = each
-        if isinstance(each, Change):
-            moves = replace(each, scenario=_in_motion(each.scenario), control=None)
-        done[each.row].append(moves)
     departure, last = None, len(record) - 1
     for row, command in enumerate(record.command):
-        for intervention in done[row]:
-            world.operator.redo(intervention)
+        world.operator.redo(record.interventions, lambda change: _in_motion(change.scenario))
         departure = _departs(row, world, record)
         if departure is not None:
             last = row - 1

@@ -16,7 +16,6 @@ from mars2d.core.errors import CERTAIN, LawError, UnknownNameError, likely, near
 from mars2d.core.through import through
 from mars2d.core.words import instead
 from mars2d.record.message import Message
-from mars2d.scenario.robot import Robot
 from mars2d.sensors.sensing import Sense
 
 if TYPE_CHECKING:
@@ -108,23 +107,35 @@ class _Body:
     _more: ClassVar[tuple[str, ...]] = ()
     """The attributes that it has besides the properties of its class."""
 
+    _family: ClassVar[str] = "robots"
+    """The list of `Scenario` that has it."""
+
     def __init__(self, world: Simulation, index: int) -> None:
         self._world, self._index = world, index
 
     def __getattr__(self, name: str) -> NoReturn:
-        unknown(self, self._kind, name, *self._more)
+        unknown(self, self._kind, name, *self._more, *(f"sense.{key}" for key in self._read))
 
     def __repr__(self) -> str:
         kind, name = self._kind.partition(" ")[2], getattr(self, "name", "")
         known = (getattr(type(self), place, None) for place in ("pose", "position"))
         seen = next((p.fget(self) for p in known if type(p) is property and p.fget), ())
         place = f" at ({', '.join(f'{number:.4g}' for number in seen)})" if len(seen) else ""
-        return f"<{kind} {name!r}{place}{self._readings}>"
+        readings = "".join(f", {name} = {shown(value)}" for name, value in self._read.items())
+        return f"<{kind} {name!r}{place}{readings}>"
 
     @property
-    def _readings(self) -> str:
-        """What its sensors read, in words."""
-        return ""
+    def _read(self) -> dict[str, Any]:
+        """What its sensors read, by name."""
+        return vars(self.__dict__["sense"]) if "sense" in self.__dict__ else {}
+
+    @property
+    def _part(self) -> Any:
+        """Its description in the scenario."""
+        return getattr(self._world.scenario, self._family)[self._index]
+
+    name: str = through("_part.name")
+    """Its name."""
 
     def __setattr__(self, name: str, value: Any) -> None:
         if not (name.startswith("_") or name in self._more):
@@ -165,11 +176,6 @@ class Neighbour(_Body):
         return self._world.pose[:, self._index]
 
     @property
-    def name(self) -> str:
-        """The other robot's name."""
-        return str(self._world.scenario.robots[self._index].name)
-
-    @property
     def position(self) -> Float:
         """The other robot's position (2,): x, y [m]."""
         return alone(self._seen()[:2])
@@ -190,11 +196,7 @@ class PropView(_Body):
     """A prop: its index in ``scenario.props``, name, pose and velocity."""
 
     _kind = "a prop"
-
-    @property
-    def name(self) -> str:
-        """The prop's name."""
-        return str(self._world.scenario.props[self._index].name)
+    _family = "props"
 
     @property
     def pose(self) -> Float:
@@ -225,19 +227,9 @@ class RobotView(_Body):
         self._found: dict[int, Neighbour] = {}
         self._listed: tuple[Sequence[int], tuple[Neighbour, ...]] = ((), ())
 
-    def __getattr__(self, name: str) -> NoReturn:
-        read = vars(self.__dict__.get("sense", object))
-        unknown(self, self._kind, name, *self._more, *(f"sense.{key}" for key in read))
-
-    @property
-    def _robot(self) -> Robot:
-        return self._world.scenario.robots[self._index]
-
-    name: str = through("_robot.name")
-    """The robot's name."""
-    drive: Drive = through("_robot.drive")
+    drive: Drive = through("_part.drive")
     """Its drive, with its limits."""
-    radius: float = through("_robot.radius")
+    radius: float = through("_part.radius")
     """The radius of its chassis, or of a circle round it, metres."""
     time: float = through("_world.time")
     """The simulated time, seconds."""
@@ -301,10 +293,6 @@ class RobotView(_Body):
                 self._found[j] = self._neighbour(self._world, j, self._index)
             self._listed = indices, tuple(self._found[j] for j in indices)
         return self._listed[1]
-
-    @property
-    def _readings(self) -> str:
-        return "".join(f", {name} = {shown(value)}" for name, value in vars(self.sense).items())
 
     @property
     def contacts(self) -> NDArray[np.void]:

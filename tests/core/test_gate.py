@@ -78,40 +78,13 @@ def fields(pattern: str, *more: str, without: tuple[str, ...] = ()) -> list[str]
 
 
 ROWS = {
-    "the mass of a body": fields("go(Robot(mass=@))", "0", "1e-7", "1e7", "-0.0", "5e-324"),
-    "the size, and so the moment": [
-        *fields("go(Robot(diameter=@))", "0", "1e-9", "1e4"),
-        *fields("go(Robot(center_offset=@))", "0.16", "-0.16", without=("-1.0",)),
-    ],
-    "friction": [
-        *fields("go(Robot(friction=@))", "-1e-9", "1e9"),
-        *fields("go(addons=[Map([[(1, 1), (1, 0)]], friction=@)])", "-1e-9"),
-    ],
-    "elasticity": [
-        *fields("go(Robot(restitution=@))", "-1e-9", "1.01"),
-        *fields("go(addons=[Map([[(1, 1), (1, 0)]], restitution=@)])", "1.01"),
-    ],
-    "force, torque and speed of a drive": [
-        *fields("go(Robot(drive=Unicycle(max_force=@)))", "0", "1e7"),
-        *fields("go(Robot(drive=Unicycle(max_torque=@)))", "0", "1e7"),
-        *fields("go(Robot(drive=Unicycle(wheel_semiaxis=@)))", "0", "1e-300"),
+    "sizes, forces and times that do not go together": [
+        "go(Robot(center_offset=0.16))",
+        "go(Robot(center_offset=-0.16))",
         "go(Robot(mass=1e-6, drive=Unicycle(max_force=1e6)))",
-    ],
-    "wheels, steering, acceleration and noise of a drive": [
-        *fields("go(Robot(drive=Differential(wheel_radius=@)))", "0", "1e-300", "1e9"),
-        *fields("go(Robot(drive=Car(wheelbase=@)))", "0", "1e-300", "1e9"),
-        *fields("go(Robot(drive=Car(max_steering=@)))", "0", "1.6"),
-        *fields("go(Robot(drive=Unicycle(max_acceleration=@)))", "0", without=("None",)),
-        *fields("go(Robot(drive=Unicycle(noise=@)))", "1e9"),
-        *fields("go(Robot(drive=Unicycle(dead_time=@)))", "1e300"),
-    ],
-    "the time step": [
-        *fields("go(sampling_time=@)", "0", "-0.1", "1e-9", "1e9"),
-        *fields("go(stop_time=@)", "-1e-9", "1e300"),
-        *fields("go(command_delay=@)", "-1e-9", "1e300"),
-        *fields("go(max_overlap=@)", "0", "1e-9", "2"),
         "go(sampling_time=1e-6, stop_time=1e12)",
         "go(sampling_time=1e-6, command_delay=1e6)",
+        "go(Robot(drive=Unicycle(dead_time=1e300)))",
     ],
     "positions and angles": [
         *fields("go(Robot(pose=(@, 0, 0)))", "1e7", without=("-1.0",)),
@@ -131,7 +104,6 @@ ROWS = {
         "go(workspace=[(-2, -2), (2, 2), (2, -2), (-2, 2)])",
     ],
     "shapes": [
-        *fields("go(Robot(shape=Disc(@)))", "0", "1e-9", "1e4"),
         *fields("Disc(0.2, center=(@, 0))", "1e7", without=("-1.0",)),
         *fields("Polygon([(0, 0), (1, 0), (@, 1)])", "1e7", without=("-1.0",)),
         *fields("Polygon(@)", "[]", "BOW", "SQUARE[:2]", "[(0, 0)] * 5",
@@ -146,30 +118,19 @@ ROWS = {
         "Polygon(SQUARE).moved(1e7, 0)", "Disc(1).moved(nan, 0)",
     ],
     "moments": [
-        *fields("go(Robot(moment=@))", "0", "1e-300", "1e300", "1", "1e-6", without=("None",)),
-        *fields("push(Box(pose=FAR, moment=@))", "0", "1e-300", "1", "1e-6", without=("None",)),
+        *(f"go(Robot(moment={moment}))" for moment in ("1e-300", "1", "1e-6")),
+        *(f"push(Box(pose=FAR, moment={moment}))" for moment in ("1e-300", "1", "1e-6")),
     ],
     "props": [
-        *fields("push(Box(pose=FAR, mass=@))", "0", "1e-7", "1e7", "0.05", "11",
-                without=("None",)),
-        *fields("push(Box(pose=FAR, height=@))", "0", "1e4"),
-        *fields("push(Box(pose=FAR, ground_friction=@))", "101", "-1e-9"),
+        *(f"push(Box(pose=FAR, mass={mass}))" for mass in ("1e-7", "1e7", "0.05", "11")),
         *fields("push(Box(pose=FAR, velocity=@))", "(nan, 0)", "(0, inf, 0)", "(0, 0, nan)", "(1,)",
                 "(1, 2, 3, 4)", "('1', 0)", "(101, 0)", "(0, 0, 1e3)", "(99, 0, 9)", "()"),
         "push(Bar(pose=(0, 0, 0), length=1e3, velocity=(0, 0, 100)), workspace=None)",
         "push(Puck(pose=FAR, velocity=(20, 0)), max_overlap=1e-5)",
         *fields("push(Box(pose=@))", "(0, 0)", "(nan, 0)", "(0, 0, inf)", "(9, 9)"),
-        *(
-            case
-            for kind, field in (("Box", "length"), ("Box", "width"), ("Ball", "diameter"),
-                                ("Puck", "diameter"), ("Bar", "length"), ("Bar", "thickness"),
-                                ("Gate", "length"), ("Gate", "thickness"))
-            for case in fields(f"push({kind}(pose=FAR, {field}=@))", "0", "1e-9", "1e4")
-        ),
         *fields("push(Gate(pose=FAR, limits=@))", "(1, 2)", "(-2, -1)", "(1, -1)", "(nan, 1)",
                 "(0, inf)", "(-1,)", "(-1e6, 1)", without=("None",)),
-        *fields("push(Gate(pose=FAR, stiffness=@))", "1e9", "1e6"),
-        *fields("push(Gate(pose=FAR, damping=@))", "1e9"),
+        "push(Gate(pose=FAR, stiffness=1e6))",
         *fields("push(Solid(@, pose=FAR))", "SQUARE", "Polygon(BOW)", "Polygon", "Box()",
                 "Shape()"),
         "go(Robot(), physics='contacts', props=[Box(pose=FAR)])",

@@ -6,10 +6,11 @@ energy are looked at after each control step.
 
 from __future__ import annotations
 
-from math import exp, sin, sqrt
+from math import copysign, cos, exp, pi, sin, sqrt
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from mars2d import Holonomic, Robot, Unicycle, World
 from mars2d.addons import Map
@@ -157,6 +158,60 @@ def test_a_spring_swings_as_the_formula_says_at_each_instant(damping, sampling_t
         assert world.prop_pose[0, 0] == pytest.approx(
             1 + amplitude * exp(-fades * t) * swing, abs=5e-3 * amplitude
         )
+
+
+@each_case("start", [1.0, -1.0])
+@each_case("mu", [0.1, 0.3])
+@each_case("sampling_time", [0.5, 0.1, 0.02])
+def test_on_a_rough_floor_each_half_swing_has_its_own_middle_until_the_floor_holds(
+    sampling_time, mu, start
+):
+    stiffness = 20.0  # and 1 kg
+    aside, half = mu * 9.81 / stiffness, pi / sqrt(stiffness)
+
+    def swing(t):
+        x = start
+        while abs(x) > aside and t >= half:
+            x, t = 2 * copysign(aside, x) - x, t - half
+        if abs(x) <= aside:
+            return x
+        middle = copysign(aside, x)
+        return middle + (x - middle) * cos(pi * t / half)
+
+    puck = Puck(name="p", pose=(1.5 + start, 0, 0), mass=1.0, ground_friction=mu)
+    spring = Spring(a="p", b=None, rest_length=1.5, stiffness=stiffness)
+    world = world_of(props=[puck], joints=[spring], sampling_time=sampling_time, stop_time=4)
+    while not world.over:
+        world.step([[0], [0]])
+        assert world.prop_pose[0, 0] - 1.5 == pytest.approx(swing(world.time), abs=2e-3)
+
+
+@each_case(
+    ("velocity", "force", "grip"),
+    [((1.5, 0, 0), (0, 4), 0.0), ((2, 0, 0), (-6, 0), 0.0), ((0, 0, 0), (4, 0), 0.15)],
+)
+@each_case("mu", [0.0, 0.1, 0.3])
+@each_case("sampling_time", [0.5, 0.1, 0.02])
+def test_what_is_pushed_across_back_or_beside_its_middle_goes_as_an_integrator_says(
+    sampling_time, mu, velocity, force, grip
+):
+    box = Box(name="box", mass=1.0, velocity=velocity, ground_friction=mu)
+    world = world_of(props=[box], sampling_time=sampling_time, stop_time=1.5)
+    world.operator.push("box", force, 2.0, (0.0, grip))
+    moment, lever = box.rigid.inertia.moment, box.rigid.shape.plate.lever
+    (fx, fy), weight = force, mu * 9.81
+
+    def acceleration(_, state):
+        _, _, theta, *v = state
+        x, y = -sin(theta) * grip, cos(theta) * grip
+        speed = max(sqrt(v[0] ** 2 + v[1] ** 2 + (lever * v[2]) ** 2), 1e-9)
+        turn = x * fy - y * fx - weight * lever**2 * v[2] / speed
+        return [*v, fx - weight * v[0] / speed, fy - weight * v[1] / speed, turn / moment]
+
+    while not world.over:
+        world.step([[0], [0]])
+    found = solve_ivp(acceleration, (0, 1.5), [0, 0, 0, *velocity], rtol=1e-8, atol=1e-10)
+    assert world.prop_pose[:, 0] == pytest.approx(found.y[:3, -1], abs=1e-3)
 
 
 @each_case("late", [-1e-3, 0.0, 1e-12, 1e-3, 2e-3])

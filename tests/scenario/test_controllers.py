@@ -241,6 +241,6 @@ def test_a_law_of_ones_own_may_derive_from_controller_and_is_named_as_code(tmp_p
     assert record.pose[-1, 0, 0] == pytest.approx(0.25)
     assert save_scenario(scenario, tmp_path / "own.toml") == ("law Ahead",)
     kept = (tmp_path / "own.toml").read_text()
-    assert "# law: Ahead can't be written down" in kept
+    assert "which is not written down: law Ahead" in kept
     record.save(tmp_path / "own.npz")
     assert mars2d.load(tmp_path / "own.npz").scenario.robots[0].controller is None

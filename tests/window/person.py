@@ -10,9 +10,8 @@ import pygame
 import pytest
 from PIL import Image
 
-from mars2d.window import compare_window
-from mars2d.window.editor_window import EditorWindow
-from mars2d.window.run import controls, window
+from mars2d.window.editor import Editor
+from mars2d.window.run import player_window, timebar, window
 from mars2d.window.screen import viewpoint
 from tests.processes import HIDDEN
 from tests.window import states
@@ -116,22 +115,17 @@ class Person:
             return self.state
         self._repeat()
         events, self._events = self._events, []
-        self.state = self._edited(events) if self.is_editor else self._played(events)
+        edits = isinstance(self.shown, Editor)
+        self.state = self._edited(events) if edits else self._played(events)
         self.state = json.loads(json.dumps(self.state))
         self.display.clock += PICTURE
         return self.state
 
-    @property
-    def is_editor(self):
-        return isinstance(self.shown, EditorWindow)
-
     def _edited(self, events):
-        editor = self.shown.editor
+        editor = self.shown
         for event in events:
             if not editor.dialogs.done:
                 editor.handle(event)
-        if editor.dialogs.to_run is not None:
-            self.shown._play()
         if editor.dialogs.done:
             return states.left_editor(editor)
         self.shown.draw(pygame.display.get_surface())
@@ -366,7 +360,7 @@ def display(monkeypatch):
     monkeypatch.setattr(pygame.mouse, "get_pos", lambda: made.pointer)
     monkeypatch.setattr(pygame.mouse, "get_focused", lambda: True)
     time = SimpleNamespace(monotonic=lambda: made.clock, perf_counter=lambda: made.clock)
-    for module in (window, controls, compare_window, viewpoint):
+    for module in (window, player_window, timebar, viewpoint):
         monkeypatch.setattr(module, "time", time)
     yield made
     pygame.key.set_mods(0)

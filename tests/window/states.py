@@ -13,7 +13,7 @@ from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.compare_window import CompareWindow
 from mars2d.window.editor import Editor
-from mars2d.window.editor_window import EditorWindow
+from mars2d.window.editor_window import play
 from mars2d.window.run.window import Window
 from mars2d.window.screen.display import Preferences
 from mars2d.window.screen.looks import Looks
@@ -75,7 +75,7 @@ def _source(options):
 
 
 def made_editor(source, folder, path=None, **options):
-    """Return the window of an editor of a scenario, a file, or of nothing yet: "-"."""
+    """Return an editor of a scenario, a file, or of nothing yet: "-"."""
     if isinstance(source, Scenario):
         save_scenario(source, folder / "given.toml")
         source = folder / "given.toml"
@@ -83,7 +83,7 @@ def made_editor(source, folder, path=None, **options):
     scenario = Scenario() if empty else open_experiment(source).scenario
     path = path or (None if empty else source)
     path = None if path is None else Path(path)
-    return EditorWindow(Editor(scenario, Looks(), path=path, empty=empty, **options), (800, 600))
+    return Editor(scenario, Looks(), path=path, empty=empty, play=play, **options)
 
 
 def of_window(window):
@@ -96,10 +96,9 @@ def of_run(window):
     player, director = window.player, window.director
     frame, source, timeline = player.frame, player.source, director.timeline
     seen = window.grab.shown(frame)
-    bar, slider = window._controls.time_bar, window._controls.slider
+    bar, slider = window.time_bar, window.slider
     banner = window._ending.banner()
     scopes, plots = window.dock.scopes, window.dock.scopes._plots
-    corner = scopes._place.topleft
     return {
         "time": round(frame.time, 3),
         "row": source.row,
@@ -122,7 +121,7 @@ def of_run(window):
         "busy": window.grab.busy,
         "driving": next(iter(director.driven), None),
         "selected": window.selected,
-        "following": window.viewpoint.following is not None,
+        "following": window.viewpoint.following,
         "scale": round(window.camera.scale, 3),
         "origin": [round(window.camera.x, 1), round(window.camera.y, 1)],
         "layers": {layer.name: layer.name in window.layers.on for layer in LAYERS},
@@ -137,8 +136,10 @@ def of_run(window):
         "menu": {title: at.center for title, at in window.menu.places.items()},
         "chosen": window.menu.chosen,
         "closes": {name: place.center for name, place in window.dock.closes.items()},
-        "scopes": {trace.name: [*trace.bodies] for trace in window.dock.scopes.traces},
-        "areas": {each.signal.name: [*each.area.move(corner)] for each in plots},
+        "scopes": {
+            getattr(what, "__name__", what): [*bodies] for what, bodies in scopes.traces.items()
+        },
+        "areas": {each.signal.name: [*scopes._on_surface(each).area] for each in plots},
         "panels": {name: [*plate] for name, plate in window.dock.plates.items()},
         "plot": [*window.layout.plot],
         "sliders": sliders_of(window.dock.parameters) if window.dock.parameters.is_open else {},
@@ -155,7 +156,6 @@ def sliders_of(panel):
         "values": {name: each.value for name, each in panel.parameters().items()},
         "places": {name: [*lines[name]] for name in panel.places},
         "resets": {name: place.center for name, place in panel.resets.items()},
-        "focus": panel.focus,
         "typed": panel.typed.text,
         "said": panel._words()[0],
     }
@@ -163,12 +163,12 @@ def sliders_of(panel):
 
 def predictions_of(panel):
     """Return how many predictions are ok, and of how many; None where they are not shown."""
-    found = panel.reading.predictions
+    found = panel.found
     return [sum(bool(each.ok) for each in found), len(found)] if panel.is_open else None
 
 
 def marks_of(window):
-    return window._controls.time_state().marks
+    return window.time_bar.marks()
 
 
 def game_of(window):
@@ -183,7 +183,7 @@ def game_of(window):
 
 def of_comparison(window):
     player, trio = window.player, window.trio
-    bar = window._controls.time_bar
+    bar = window.time_bar
     return {
         "time": round(player.frame.time, 3),
         "row": trio.row,
@@ -213,17 +213,16 @@ def of_editor(editor):
         "props": [[type(p).__name__, *p.pose, *_sizes(p)] for p in draft.base.props],
         "outlines": draft.listed["outline"],
         "walls": draft.listed["wall"],
-        "routes": draft.listed["waypoint"],
+        "routes": draft.listed["route"],
         "beacons": [beacon.position for beacon in draft.listed["beacon"]],
         "workspace": draft.base.workspace,
         "selection": desk.selection,
         "corner": desk.corner,
         "notice": desk.notice,
-        "fault": editor.verdict.text,
-        "culprits": sorted(editor.verdict.culprits),
+        "fault": desk.settled.verdict.text,
+        "culprits": sorted(desk.settled.verdict.culprits),
         "prompt": None if prompt is None else prompt.label,
         "typed": None if prompt is None or prompt.field is None else prompt.text,
-        "answers": {} if prompt is None else menu,
         "error": None if prompt is None else prompt.error,
         "laws": [law_of(robot) for robot in draft.base.robots],
         "drives": [repr(robot.drive) for robot in draft.base.robots],
@@ -240,9 +239,8 @@ def of_editor(editor):
         "step": desk.step,
         "changed": desk.changed,
         "corners": len(getattr(editor.tool, "corners", ())),
-        "scale": round(desk.camera.scale, 3),
-        "origin": [round(desk.camera.x, 2), round(desk.camera.y, 2)],
-        "camera": [desk.camera.scale, desk.camera.x, desk.camera.y],
+        "scale": round(desk.viewpoint.camera.scale, 3),
+        "origin": [round(desk.viewpoint.camera.x, 2), round(desk.viewpoint.camera.y, 2)],
     }
 
 

@@ -7,10 +7,12 @@ import pygame
 from mars2d import Robot, Scenario, World
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
+from mars2d.output.raster.theme import LIGHT
 from mars2d.window.panels.lesson import Lesson
 from mars2d.window.screen.viewpoint import Viewpoint
 from mars2d.window.widgets.dock import Dock
 from mars2d.window.widgets.panel import Panel
+from mars2d.window.widgets.rows import Word
 from tests.cases import each_case
 from tests.window.written import Written, painter
 
@@ -24,6 +26,7 @@ class Plain(Panel):
     """A panel that remembers what happened to it."""
 
     def __init__(self, name, least=100.0, wanted=200.0):
+        super().__init__(Painter())
         self.name, self.title = name, name.title()
         self.size, self.events, self.drags = (least, wanted), [], False
 
@@ -121,6 +124,28 @@ def test_the_one_opened_last_is_seen_even_where_it_needs_all_the_room():
     plate = seen.dock.plates["inspector"]
     assert plate.height > 0.85 * seen.layout.plot.height
     assert seen.layout.plot.contains(plate)
+
+
+@each_case("size, text", [((640, 400), 2.2), ((640, 400), 1.0), ((480, 320), 2.2)])
+def test_however_small_the_picture_a_panel_that_is_opened_is_seen(size, text):
+    seen = Seen(some(1), size, text=text)
+    (plate,) = seen.dock.plates.values()
+    assert seen.layout.plot.contains(plate)
+    assert seen.click(seen.dock.closes["panel0"].center)
+
+
+@each_case("width", [150, 232, 900])
+def test_the_lines_of_a_table_have_one_size_and_never_overlap(width):
+    panel, surface = Panel(painter(Layout.of((640, 400)), LIGHT)), Written((width, 100))
+    lines = ["", "a long name", "b", "both"], ["before, along [m/s]", "1", "2", "3 nearer"]
+    lines = [*lines, ["momentum before [N s]", "", "", "(1.23, 4.56)"]]
+    cells = [[[Word(each, LIGHT.ink)] * bool(each) for each in line] for line in lines]
+    for k, row in enumerate(panel.table(cells)):
+        row.draw(surface, pygame.Rect(0, 20 * k, width, 20))
+    assert not surface.crowded()
+    assert not surface.cut()
+    assert len({place.height for _, place in surface.words}) == 1
+    assert surface.place("3 nearer").right == surface.place("(1.23, 4.56)").right
 
 
 def test_a_panel_of_what_is_selected_leaves_the_arena_where_it_is_until_it_is_fitted():

@@ -19,19 +19,6 @@ scenario = Scenario(robots=[Robot(controller=law)], stop_time=1)
 """
 
 
-def test_nothing_is_said_while_it_goes_on_and_then_that_it_is_over():
-    player = Player(Circling(rows=3), "max")
-    ending = Ending(player)
-    assert ending.banner() is None
-    player.step(3)
-    player.step(3)
-    banner = ending.banner()
-    assert not banner.error
-    assert "R restarts" in banner.hint
-    player.back()
-    assert ending.banner() is None
-
-
 def test_the_lines_of_an_error_are_those_that_were_run(tmp_path):
     file = tmp_path / "fails.py"
     file.write_text(LAW)

@@ -11,10 +11,7 @@ from mars2d.output.raster.layout import Layout
 from mars2d.record.frame import Frame
 from mars2d.window.run.window import Window
 from mars2d.window.screen.source import Playback
-from mars2d.window.screen.viewpoint import Follow, Viewpoint
-
-PLOT = pygame.Rect(0, 52, 1280, 580)
-START = Camera(60.0, 100.0, 400.0)
+from mars2d.window.screen.viewpoint import Viewpoint
 
 
 def frame_of(*places):
@@ -25,47 +22,51 @@ def frame_of(*places):
     )
 
 
-def followed(follow, camera, path, dt):
-    """Return the pixels (k, 2) of the first robot while it goes along places, one each dt."""
-    pixels = []
+def viewpoint_at(x, y):
+    """Return a viewpoint whose middle is a point, at 60 pixels a metre."""
+    view = Viewpoint(frame_of((0, 0), (1, 1)).scenario, Layout.of((1280, 720)))
+    left, top = view.layout.plot.center
+    view.camera = Camera(60.0, left - 60 * x, top + 60 * y)
+    return view
+
+
+def followed(path, dt):
+    """Return where the first robot is seen beside the middle, (k, 2) pixels, while it goes."""
+    view = viewpoint_at(9.0, -1.0)
+    view.follow(0)
+    off = []
     for place in path:
-        frame = frame_of(place, (1.0, 1.0))
-        camera = follow.camera(camera, frame, PLOT, dt)
-        pixels.append(camera.to_pixels([place])[0])
-    return camera, np.array(pixels)
+        view.step(frame_of(place, (1.0, 1.0)), dt)
+        off.append(view.camera.to_pixels([place])[0] - view.layout.plot.center)
+    assert view.camera.scale == 60.0
+    return np.array(off)
 
 
 def test_a_body_comes_to_the_middle_without_going_beyond_it():
-    camera, pixels = followed(Follow(0), START, [(0.0, 0.0)] * 180, 1 / 60)
-    off = pixels - PLOT.center
+    off = followed([(0.0, 0.0)] * 180, 1 / 60)
     np.testing.assert_allclose(off[-1], 0, atol=0.1)
     assert (np.diff(np.abs(off), axis=0) <= 1e-6).all(), "it never turns back"
-    assert camera.scale == START.scale
 
 
-def test_how_quickly_does_not_depend_on_how_often_pictures_are_drawn():
-    seen = {}
-    for rate in (60, 30, 15):
-        _, pixels = followed(Follow(0), START, [(0.0, 0.0)] * (rate // 5), 1 / rate)
-        seen[rate] = pixels[-1]
-    np.testing.assert_allclose(seen[30], seen[60], atol=1e-6)
-    np.testing.assert_allclose(seen[15], seen[60], atol=1e-6)
+def test_a_body_that_moves_stays_where_it_is_on_the_screen():
+    late = followed([(0.3 * k / 60, 0.0) for k in range(600)], 1 / 60)[300:]
+    assert np.abs(late).max() < 1
+    assert np.abs(np.diff(late, axis=0)).max() < 0.01
 
 
-def test_a_body_that_moves_is_followed_smoothly():
-    path = [(0.3 * k / 60, 0.0) for k in range(600)]
-    _, pixels = followed(Follow(0), START, path, 1 / 60)
-    late = pixels[300:]
-    assert np.abs(late - PLOT.center).max() < 10
-    assert np.abs(np.diff(late, axis=0)).max() < 0.01, "it stays where it is on the screen"
-
-
-def test_a_team_that_gathers_is_looked_at_from_nearer_up_to_a_bound():
-    follow, camera = Follow(None), Camera(10, 640, 342)
-    for _ in range(300):
-        camera = follow.camera(camera, frame_of((0.0, 0.0), (0.5, 0.0)), PLOT, 1 / 60)
-    assert 100 < camera.scale < 200
-    np.testing.assert_allclose(camera.to_pixels([(0.25, 0.0)])[0], PLOT.center, atol=1)
+def test_a_team_is_shown_anew_where_one_leaves_the_picture_and_where_it_has_become_small():
+    view, room = viewpoint_at(0.5, 0.5), Layout.of((1280, 720)).plot
+    view.follow(None)
+    view.step(frame_of((0.0, 0.0), (7.0, 4.0)), 1 / 60)
+    assert view.camera.scale == 60.0, "all is well in view"
+    for places in (((0.0, 0.0), (40.0, 3.0)), ((0.0, 0.0), (0.5, 0.0)), ((7.0, 7.0), (7.0, 7.4))):
+        view.step(frame_of(*places), 1 / 60)
+        seen = view.camera.to_pixels(places)
+        assert all(room.collidepoint(pixel) for pixel in seen.tolist())
+        assert 20 < np.hypot(*(seen[1] - seen[0])) < 0.8 * room.width
+    before = view.camera
+    view.step(frame_of((7.1, 7.0), (7.0, 7.4)), 1 / 60)
+    assert view.camera is before
 
 
 def test_who_is_driven_is_always_inside_and_who_is_inside_moves_no_picture():

@@ -7,8 +7,8 @@ from mars2d import LawError, Robot, Scenario
 from mars2d.addons import Map
 from mars2d.core.scene import Circle, Line, Text
 from mars2d.scenario.experiment import Experiment
-from mars2d.window.run.controls import Controls
 from mars2d.window.run.ghosts import ghosts
+from mars2d.window.run.timebar import TimeBar
 from mars2d.window.screen.player import Player
 from mars2d.window.screen.source import Playback
 from mars2d.world.timeline import Timeline
@@ -41,12 +41,6 @@ def centers(scene):
     return {shape.center for shape in scene.shapes if isinstance(shape, Circle)}
 
 
-def test_without_branches_there_are_none():
-    timeline = timeline_of()
-    run_to(timeline, 5)
-    assert ghosts(timeline, timeline.frame).shapes == []
-
-
 def test_a_body_is_seen_where_it_was_and_how_it_got_there():
     timeline = branched()
     scene = ghosts(timeline, timeline.frame)
@@ -76,7 +70,7 @@ def test_from_the_other_branch_this_one_is_seen():
 
 def test_after_its_end_a_branch_stays_there_and_says_so():
     timeline = branched(newest=25)
-    timeline.branches[0].stop("enough")
+    timeline.branches[0].world.stop("enough")
     run_to(timeline, 60)
     scene = ghosts(timeline, timeline.frame)
     assert [x for x, _ in centers(scene)] == pytest.approx([2.5, 2.5])
@@ -85,7 +79,7 @@ def test_after_its_end_a_branch_stays_there_and_says_so():
 
 
 def marks(source):
-    return Controls(Player(source, 1.0), source).time_state().marks
+    return TimeBar(Player(source, 1.0), source).marks()
 
 
 def test_marks_of_hands_branches_and_collisions():
@@ -111,13 +105,12 @@ def test_a_recording_has_the_marks_that_its_run_had():
     ran = marks(timeline)
     player = Player(Playback(timeline.record), 1.0)
     player.go(20)
-    shown = Controls(player, player.source).time_state()
-    assert {kind: [*rows] for kind, rows in shown.marks.items()} == {
-        kind: [*ran[kind]] for kind in shown.marks
-    }
-    assert shown.marks["collision"]
-    assert shown.marks["hand"] == [30]
-    assert (shown.last, shown.past) == (len(timeline.record) - 1, False)
+    bar = TimeBar(player, player.source)
+    found = bar.marks()
+    assert {kind: [*rows] for kind, rows in found.items()} == {kind: [*ran[kind]] for kind in found}
+    assert found["collision"]
+    assert found["hand"] == [30]
+    assert (bar.extent, player.past) == (len(timeline.record) - 1, False)
     assert player.status() == ("paused", "waiting"), "a recording has no present to be behind"
 
 

@@ -11,17 +11,19 @@ from mars2d import Robot, Scenario, World
 from mars2d.addons import Map
 from mars2d.bodies.joints import Rope
 from mars2d.bodies.props import Box
+from mars2d.core.errors import InputError
 from mars2d.core.scene import Circle, Line, Text
 from mars2d.output.raster.camera import Camera
-from mars2d.window.run import drags
-from mars2d.window.run.drags import pull_of
 from mars2d.window.run.grab import Grab
+from mars2d.window.run.marks import BAD
+from mars2d.window.run.push import pull_of
 from tests.cases import each_case
 
 LEFT, RIGHT = pygame.BUTTON_LEFT, pygame.BUTTON_RIGHT
 pytestmark = pytest.mark.usefixtures("keyboard")
 
 CAMERA = Camera(100.0, 300.0, 200.0)
+VIEW = SimpleNamespace(camera=CAMERA, point_at=lambda at: tuple(CAMERA.to_world([at])[0].tolist()))
 
 SCENARIO = Scenario(
     robots=[Robot(name="red"), Robot(name="blue", pose=(1, 0, 0))],
@@ -38,11 +40,9 @@ class Person:
 
     def __init__(self, scenario=SCENARIO, playing=False, recording=False):
         self.world, self.playing, self.recording = World(scenario), playing, recording
-        self.said, self.clicked, self.now = [], [], 0.0
-        self.grab = Grab(
-            self, SimpleNamespace(camera=CAMERA), [], lambda pixel: pixel, self.change,
-            self.said.append, {LEFT: self.clicked.append}, clock=lambda: self.now,
-        )  # fmt: skip
+        self.said, self.clicked = [], []
+        clicks = {LEFT: self.clicked.append}
+        self.grab = Grab(self, VIEW, [], lambda pixel: pixel, self.change, clicks)
 
     @property
     def frame(self):
@@ -52,17 +52,23 @@ class Person:
         if self.recording:
             self.said.append("a recording")
             return False
-        act(self.world)
+        try:
+            act(self.world)
+        except InputError as error:
+            self.said.append(str(error))
+            return False
         return True
 
     def pixel(self, x, y):
         return tuple(np.rint(CAMERA.to_pixels([(x, y)])[0]).astype(int).tolist())
 
     def move(self, x, y):
-        self.grab.move(self.pixel(x, y), (0, 0))
+        self.pointer = self.pixel(x, y)
+        self.grab.move(self.pointer)
 
     def press(self, x, y, button=LEFT):
-        self.grab.press(self.pixel(x, y), button)
+        self.pointer = self.pixel(x, y)
+        self.grab.press(self.pointer, button)
         return self.grab.busy
 
     def release(self, x, y):
@@ -71,9 +77,8 @@ class Person:
     def wait(self, steps):
         """Let time pass, with a picture at each step."""
         for _ in range(steps):
-            self.grab.tick()
+            self.grab.tick(self.pointer)
             self.world.step()
-            self.now += 0.1
 
     def shown(self):
         return self.grab.shown(self.frame)
@@ -131,7 +136,7 @@ def test_a_drag_pulls_a_robot_to_the_pointer_and_a_line_shows_how_strongly():
     assert person.world.pose[:2, 0] == pytest.approx((0, -1), abs=0.06)
     person.release(0.0, -1.0)
     assert person.clicked == []
-    assert person.world.operator.pulls == ()
+    assert not person.world.operator.pulls
     person.wait(3)
     assert person.grab.marks(person.frame) != []  # it is over the robot
 
@@ -141,8 +146,8 @@ def test_once_time_stands_still_it_lets_go():
     person.press(0, 0)
     person.move(0.0, -1.0)
     person.playing = False
-    person.grab.tick()
-    assert person.world.operator.pulls == ()
+    person.grab.tick(person.pointer)
+    assert not person.world.operator.pulls
     assert not person.grab.busy
 
 
@@ -197,23 +202,37 @@ def test_a_drag_shows_a_body_elsewhere_and_puts_it_there_when_it_ends():
     assert [type(i).__name__ for i in person.world.operator.log] == ["Place"]
 
 
+def test_a_drag_of_which_only_press_and_release_are_seen_counts():
+    person = Person()
+    person.press(-1.05, 0.0)
+    person.release(-1.05, -1.0)
+    assert person.world.prop_pose[:, 0].tolist() == pytest.approx([-1, -1, 0])
+    person.press(-1.05, -1.0)
+    person.move(-1.05, 0.0)
+    person.release(-1.05, -1.0)
+    assert person.clicked == [], "who comes back has not clicked"
+
+
 def test_where_it_can_not_stay_this_is_said_in_red_and_it_springs_back():
     person = Person()
     person.press(0, 0)
     person.move(0.9, 0.0)
     assert person.words() == ["would overlap blue"]
-    assert drags.BAD in {ring.stroke for ring in person.marks(Circle)}
+    assert BAD in {ring.stroke for ring in person.marks(Circle)}
     person.release(0.9, 0.0)
     assert person.said == ["red can't be put there: it would overlap blue"]
     assert person.shown().pose[:, 0].tolist() == [0, 0, 0]
 
 
-def test_what_a_joint_holds_is_not_carried_and_this_is_said():
+def test_what_a_joint_holds_springs_back_and_this_is_said():
     rope = Rope(a="red", b="blue", length=2.0)
     person = Person(Scenario(robots=SCENARIO.robots, joints=[rope]))
     person.press(0, 0)
     person.move(0, -1)
-    assert person.said == ["red can't be put elsewhere: a joint holds it; it can be pulled"]
+    words = "red can't be put elsewhere: a joint holds it; it can be pulled"
+    assert person.words() == [words]
+    person.release(0, -1)
+    assert person.said == [words]
     assert person.shown().pose[:, 0].tolist() == [0, 0, 0]
 
 

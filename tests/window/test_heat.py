@@ -51,7 +51,7 @@ def test_above_thirty_contacts_colours_stand_for_arrows_and_the_pointer_reads_ne
     window.draw(surface)
     assert window._arena._crowded
     pixel = tuple(window.camera.to_pixels([frame.pose[:2, hottest]])[0].astype(int).tolist())
-    window.grab.move(pixel, (0, 0))
+    window.grab.move(pixel)
     said = in_newtons(float(squeezes(frame)[hottest]))
     marks = window.grab.marks(frame, more=said)
     assert f"robot{hottest}  {said}" in [each.text for each in marks if isinstance(each, Text)]

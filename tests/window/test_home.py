@@ -86,6 +86,11 @@ def test_what_is_typed_is_searched_for(memory):
     assert len(found("contact")) > 10, "a course, docstrings, and the field physics"
     press(home, pygame.K_ESCAPE)
     assert len(all_cards(home)) == len(examples()) + 1, "each once, and a new drawing"
+    home.draw(surface)
+    home.page.turn(9)
+    found("contact")
+    home.draw(surface)
+    assert home.page._area.contains(home.page._seen(home.page.places[0][1])), "what Enter opens"
     found("qq")
     home.draw(surface)
     press(home, pygame.K_RETURN)

@@ -8,6 +8,7 @@ from mars2d.bodies import Ball
 from mars2d.scenario.experiment import Experiment
 from mars2d.window.run.window import Window
 from mars2d.window.screen.source import Playback
+from mars2d.window.widgets.panel import LINE
 from mars2d.world.timeline import Timeline
 from tests.cases import each_case
 from tests.window.states import Preferences
@@ -27,7 +28,7 @@ def test_the_keys_of_contacts_open_the_card_of_what_the_touch_did(live):
         window.player.pass_time(0.1)
     assert window.dock.impact.is_open
     window.draw(surface)
-    assert "impact" in window.dock.plates
+    assert window.dock.plates["impact"].height >= 12 * LINE * window.layout.ui
     (rows,) = window.dock.impact._cards(window.player.frame)
     table = {label: numbers for label, *numbers in rows}
     assert table[""] == ["a", "b", "both"]

@@ -43,7 +43,6 @@ from mars2d.window.panels.readout import (
     kind_of,
     state_of,
 )
-from mars2d.window.panels.sensorplot import rows_of
 from mars2d.window.screen.picking import Selection
 from tests.cases import each_case
 from tests.window.written import Written, painter
@@ -61,7 +60,7 @@ class Strange(Sensor):
         return np.full((3, 4), np.nan if world.time > 0.5 else world.time)
 
 
-def team(steps=30, **changes):
+def team(steps=30):
     """Return a world of two robots that talk and see, and a crate that one of them pushes."""
 
     def law(robot):
@@ -77,11 +76,8 @@ def team(steps=30, **changes):
     ]
     addons = [Communication(delay=0.2), Map([[(2, 2), (3, 2), (3, 3)]]), Lamp(at=(3, 0))]
     crate = Box(pose=(0.45, 0, 0), name="crate", ground_friction=0.3)
-    scenario = Scenario(
-        robots=robots, props=[crate], stop_time=100, neighbours=Within(1.5),
-        addons=addons, **changes,
-    )  # fmt: skip
-    world = World(scenario)
+    every = {"robots": robots, "props": [crate], "addons": addons, "neighbours": Within(1.5)}
+    world = World(Scenario(**every, stop_time=100))
     for _ in range(steps):
         world.step()
     world.observe()
@@ -93,11 +89,10 @@ def world():
     return team()
 
 
-def seen_of(frame, body, theme=LIGHT, size=(344, 580)):
-    surface = pygame.Surface(size, 0, 32)
+def seen_of(frame, body):
+    surface = pygame.Surface((344, 580), 0, 32)
     surface.fill("#ff00ff")
-    inspector = Inspector(Painter(theme=theme), Selection(body))
-    inspector.draw(surface, surface.get_rect(), frame)
+    Inspector(Painter(), Selection(body)).draw(surface, surface.get_rect(), frame)
     return pygame.surfarray.array3d(surface).swapaxes(0, 1).astype(int)
 
 
@@ -160,16 +155,14 @@ def test_contacts_are_named_with_their_force(world):
 
 
 def test_the_inbox_has_the_last_messages_that_have_arrived(world):
-    now, dt = world.time, world.scenario.sampling_time
     heard = inbox(world.frame, 0)
     assert [(name, text) for name, _, text in heard] == [
         ("blue", f'{{"step":{world.iteration - 2 - k}}}') for k in range(3)
     ]
-    assert heard[0][1] == pytest.approx(now - 0.2)
+    assert heard[0][1] == pytest.approx(world.time - 0.2)
     early = world.record.frame(3)
     assert [text for _, _, text in inbox(early, 0)] == ['{"step":1}', '{"step":0}']
     assert inbox(world.record.frame(1), 0) == []
-    assert dt == 0.1
 
 
 def test_scrubbing_back_shows_what_was_seen_then(world):
@@ -186,7 +179,7 @@ def test_every_sensor_has_a_plot(world):
     for row in (0, 3, 29):
         frame = world.record.frame(row)
         for sensor, reading in readings_of(frame, 0):
-            for part in rows_of(panel, frame, 0, sensor, reading):
+            for part in panel.reading(frame, 0, sensor, reading):
                 surface = pygame.Surface((300, round(part.height)), 0, 32)
                 before = pygame.surfarray.array3d(surface)
                 part.draw(surface, surface.get_rect())
@@ -199,7 +192,7 @@ def test_a_scan_is_seen_from_left_to_right():
     world = World(Scenario(robots=[robot], addons=[wall], workspace=None))
     world.observe()
     ((sensor, reading),) = readings_of(world.frame, 0)
-    (plot,) = rows_of(Inspector(Painter(), Selection(0)), world.frame, 0, sensor, reading)
+    (plot,) = Inspector(Painter(), Selection(0)).reading(world.frame, 0, sensor, reading)
     surface = pygame.Surface((300, round(plot.height)), 0, 32)
     plot.draw(surface, surface.get_rect())
     ink = rgba(LIGHT.shade(world.scenario.colors[0]))[:3]

@@ -16,7 +16,7 @@ from mars2d.scenario.scenario import Scenario
 from mars2d.window import home
 from mars2d.window.compare_window import CompareWindow
 from mars2d.window.editor import Editor
-from mars2d.window.editor.item import Item
+from mars2d.window.editor.draft import Item
 from mars2d.window.run.window import Window
 from mars2d.window.screen.display import Preferences
 from mars2d.window.screen.looks import Looks
@@ -146,5 +146,5 @@ def test_all_has_room_at_every_size_of_the_window_and_of_the_text(size, monkeypa
         sides.append(editor._toolbar.places["robot"].width)
         rows.append(editor.panel.places["Title"].height)
     assert faults == []
-    assert min(sides) >= 0.87 * sides[0], "larger text takes little room from the buttons"
+    assert min(sides) >= 0.85 * sides[0], "larger text takes little room from the buttons"
     assert size != (1280, 720) or rows[-1] >= 2 * rows[0], "the panel is read from the back row"

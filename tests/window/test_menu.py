@@ -77,10 +77,12 @@ def test_it_takes_all_keys_but_those_of_commands_which_close_it():
         assert not it.menu.is_open
 
 
-def test_one_that_stays_leaves_other_keys_to_the_window():
+def test_one_that_stays_leaves_nothing_but_commands_to_the_window():
     it = Opened("pursuer", "evader", keys={"evader": "2"}, stays=True)
-    assert not it.press("escape")
-    assert not it.press("f1")
+    for key, mod in (("escape", 0), ("f1", 0), ("z", CTRL)):
+        assert not it.press(key, mod=mod)
+    for key in ("b", "space", "delete", "="):
+        assert it.press(key), key
     assert it.menu.is_open
     assert it.press("e")
     assert it.menu.chosen == "evader"

@@ -66,10 +66,10 @@ def test_an_error_stays_until_another_one_or_until_it_is_cleared():
     assert board.marks(2000.0) == 0
 
 
-def test_the_same_words_are_not_said_twice_but_anew():
+def test_the_same_words_are_said_once_with_the_newest_number():
     board = Board()
-    for now in (0.0, 4.0):
-        board.notes.say("saved")
+    for now, text in ((0.0, "text 1.7 times as large"), (4.0, "text 2.2 times as large")):
+        board.notes.say(text)
         board.draw(now)
     assert len(board.notes) == 1
     assert board.marks(8.0) > 0

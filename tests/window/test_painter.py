@@ -4,9 +4,11 @@ import numpy as np
 import pygame
 import pytest
 
+from mars2d import Robot, Scenario, World
+from mars2d.bodies.props import Box
 from mars2d.core.errors import InputError
 from mars2d.core.scene import Scene, wake_style
-from mars2d.output.layers.table import Layers
+from mars2d.output.layers.table import LAYERS, Layers
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.layout import fitted
 from mars2d.output.raster.painter import Painter
@@ -129,6 +131,9 @@ def test_of_labels_that_overlap_the_last_is_written_alone():
     assert one > 10
     assert written((0.5, 0.3), (-0.5, -0.3), (0, 0)) == one
     assert written((0, 3), (0, -3), (0, 0)) == pytest.approx(3 * one)
+    scenario = Scenario(robots=[Robot(name="red")], props=[Box(name="crate", pose=(1, 0, 0))])
+    (names,) = [layer.shapes(World(scenario).frame) for layer in LAYERS if layer.name == "names"]
+    assert [text.text for text in names.shapes] == ["crate", "red"], "no prop hides a robot's name"
 
 
 def test_a_picture_shows_the_robots_where_they_are():

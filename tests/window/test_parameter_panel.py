@@ -256,20 +256,3 @@ def test_more_robots_start_anew_and_a_heavier_crate_does_not(open_window, file):
     window.until(lambda s: "props.crate.mass" in s["sliders"]["resets"])
     window.do("mousemove", *window.state["sliders"]["resets"]["props.crate.mass"], "click", 1)
     window.until(lambda s: s["sliders"]["values"]["props.crate.mass"] == 2.0)
-
-
-def test_a_click_beside_the_panel_gives_keys_back_to_the_window(open_window, file):
-    window = open_window(1, experiment=str(file))
-    window.press("space", "F2")
-    window.until(lambda s: s["sliders"] and not s["playing"])
-    window.do("mousemove", *pixel(window, "mu", 0.8), "click", 1)
-    seen = window.until(lambda s: s["sliders"]["focus"] == "mu")
-    row = seen["row"]
-    window.press("Left")
-    window.until(lambda s: s["sliders"]["values"]["mu"] == 0.89)
-    window.click(0, 4)
-    window.until(lambda s: s["sliders"]["focus"] is None)
-    window.press("Right")
-    window.until(lambda s: s["row"] == row + 1)
-    window.press("F2")
-    window.until(lambda s: not s["sliders"])

@@ -6,7 +6,7 @@ import numpy as np
 
 from mars2d import Robot, Scenario, World
 from mars2d.bodies.props import Box, Solid
-from mars2d.window.screen.picking import body_at, next_body
+from mars2d.window.screen.picking import body_at
 from tests.cases import each_case
 from tests.worlds import ELL
 
@@ -25,12 +25,3 @@ def crowded():
 )  # fmt: skip
 def test_what_lies_under_the_pointer_is_hit_with_a_little_slack(point, body):
     assert body_at(crowded(), point, 0.02) == body
-
-
-def test_one_body_after_the_other_is_selected_and_then_none():
-    frame, order, body = crowded(), [], None
-    for _ in range(5):
-        body = next_body(frame, body)
-        order.append(body)
-    assert order == [0, 1, 2, 3, None]
-    assert frame.scenario.bodies[2].name == "ell"

@@ -77,6 +77,15 @@ def test_after_a_replay_the_next_start_is_drawn_from_the_next_seed():
     assert [seat.role for seat in window.game.seats] == ["evader"]
 
 
+def test_a_file_that_is_broken_meanwhile_is_said_and_the_game_stays(catch):
+    window = opened(catch, [1])
+    run_to_the_end(window)
+    catch.write_text("scenario = Scen(")
+    assert window.game.choose(0)
+    assert "catch.py, line 1" in [note.text for note in window.notes._notes][-1]
+    assert window.director.timeline.over
+
+
 def test_who_wins_plays_faster_and_who_loses_no_slower_than_at_first(catch):
     window = opened(catch, [1], pursuer="rests.py", stop_time=3.0)
     for games, speed in ((1, 1.25), (2, 1.5625)):
@@ -186,13 +195,16 @@ def play(open_window):
 def test_a_role_is_chosen_counted_down_and_driven(play, way):
     person = play(1.0, "corner_game")
     assert person.state["game"]["seats"] == []
-    person.press("space", "n")  # begin nothing yet
-    assert person.settle()["time"] == 0
+    person.press("space", "n", "d", "e")  # keys are the menu's: they begin and open nothing
+    state = person.settle()
+    assert (state["time"], state["dark"], state["editor"]) == (0, False, None)
+    assert state["chosen"] == "evader"
     if way == "number":
         person.press("2")
     else:
         person.do("mousemove", *person.state["menu"]["evader"], "click", 1)
     person.until(lambda s: s["game"]["seats"] == [1] and s["game"]["counting"])
+    assert ("↑ ← ↓ →", "evader") in person.shown._hints, "also where the panel has no room"
     assert person.state["time"] == 0
     person.until(lambda s: not s["game"]["counting"] and s["time"] > 0)
     before = person.state["robots"][1]

@@ -26,22 +26,15 @@ def checks(record):
 WAY = "    yield Prediction('way', 1.0, record.pose[-1, 0, 0], 0.01, 'm')\n"
 
 
-class Clock:
-    now = 0.0
-
-    def __call__(self):
-        return self.now
-
-
 class Desk:
     """A panel over a run, and what it says."""
 
     def __init__(self, path, body, size=(320, 400), theme=LIGHT, text=1.0):
         path = path / "mine.py"
         path.write_text(HEAD + body)
-        self.timeline, self.clock = Timeline(open_experiment(path)), Clock()
+        self.timeline, self.now = Timeline(open_experiment(path)), 0.0
         layout = Layout.of((1280, 720), text=text, controls=True)
-        self.panel = Predictions(painter(layout, theme), self.timeline, self.clock)
+        self.panel = Predictions(painter(layout, theme), self.timeline, lambda: self.now)
         self.panel.wanted = True
         self.size = size
 
@@ -54,7 +47,7 @@ class Desk:
             self.timeline.advance()
 
     def look(self, seconds=10.0, *, playing=True):
-        self.clock.now += seconds
+        self.now += seconds
         return self.panel.look(playing=playing)
 
     def drawn(self):
@@ -99,7 +92,7 @@ def test_checks_that_never_return_are_broken_off_and_the_run_goes_on(tmp_path):
     desk.run(5)
     with Deadline(0.3, calls=lambda: desk.timeline.world.simulation.calls):
         desk.look()
-    assert "did not return within 0.3 s" in str(desk.panel.reading.error)
+    assert "did not return within 0.3 s" in str(desk.panel.error)
     desk.run(5)
     assert desk.timeline.row == 10
 

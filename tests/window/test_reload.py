@@ -119,15 +119,6 @@ def test_an_error_is_told_of_and_the_law_of_before_goes_on(tmp_path, name, text,
     assert said.error is None
 
 
-def test_what_needs_a_new_start_begins_anew_and_says_why(desk):
-    desk.run(5)
-    desk.write("walk", WALK.replace("sampling_time=0.1", "sampling_time=0.2"))
-    (said,) = desk.wait()
-    assert said.message == "walk.py: started again: Scenario.sampling_time is another one"
-    assert desk.timeline.newest == 0
-    assert desk.timeline.scenario.sampling_time == 0.2
-
-
 def test_a_law_that_failed_is_mended(desk):
     desk.write("walk", WALK.replace("SLOW, 0.0", "SLOW / (robot.time < 0.95), 0.0"))
     desk.wait()

@@ -1,6 +1,7 @@
 """The time bar shows where an experiment is and finds the row under the pointer; so the slider."""
 
 from math import inf
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,8 +10,7 @@ from mars2d import Robot, Scenario
 from mars2d.output.raster.layout import TEXT_SIZES, Layout
 from mars2d.output.raster.theme import LIGHT
 from mars2d.scenario.experiment import open_experiment
-from mars2d.window.run.controls import Controls
-from mars2d.window.run.timebar import TimeBar, TimeState
+from mars2d.window.run.timebar import TimeBar, costs
 from mars2d.window.screen.player import Player
 from mars2d.window.widgets.slider import SpeedSlider
 from mars2d.world.timeline import Timeline
@@ -22,7 +22,12 @@ SIZES = [(640, 480), (1280, 720), (2560, 1440)]
 
 
 def state(row=300, rows=400, last=1000, dt=0.1, **marks):
-    return TimeState(row, rows, last, dt, marks)
+    """Return a time bar of a run that is at a row of so many."""
+    scenario = SimpleNamespace(last_iteration=last, sampling_time=dt)
+    source = SimpleNamespace(row=row, newest=rows, scenario=scenario)
+    bar = TimeBar(SimpleNamespace(source=source, past=row < rows), source)
+    bar.marks = lambda: marks
+    return bar
 
 
 class Drawn:
@@ -30,11 +35,9 @@ class Drawn:
 
     def __init__(self, shown, theme=LIGHT, size=(1280, 720), text=1.0, **options):
         self.layout = Layout.of(size, text=text, controls=True)
-        self.bar, self.surface = TimeBar(), Written(size)
+        self.bar, self.surface = shown, Written(size)
         self.theme = theme
-        self.bar.draw(
-            self.surface, self.layout.timebar, painter(self.layout, theme), shown, **options
-        )
+        shown.draw(self.surface, self.layout.timebar, painter(self.layout, theme), **options)
         self.pixels = pixels(self.surface)
 
     def has(self, color, row, above=0):
@@ -89,6 +92,7 @@ def test_over_it_the_pointers_time_is_shown():
     assert hovered.surface.place("25.0 s").bottom <= hovered.layout.timebar.top
     beside = Drawn(state(), pointer=(pointer[0], 100))
     assert np.array_equal(beside.pixels, plain.pixels)
+    assert not np.array_equal(Drawn(state(), held=True).pixels, plain.pixels), "it is lifted"
 
 
 @THEMES
@@ -109,7 +113,7 @@ def test_events_are_ticks_in_colours_of_their_own(theme):
 @each_case("rows, seconds", [(0, 10), (90, 10), (99, 20), (1000, 200), (10_000, 2000)])
 def test_an_endless_experiment_shows_a_round_time_that_grows(rows, seconds):
     endless = state(row=rows, rows=rows, last=10**13)
-    assert endless.extent * endless.sampling_time == pytest.approx(seconds)
+    assert endless.extent * 0.1 == pytest.approx(seconds)
     assert f"{seconds} s" in Drawn(endless).surface.texts
     assert Drawn(endless).bar.row_at(1e6) == rows
 
@@ -154,14 +158,14 @@ def test_the_speed_stands_beside_it():
 
 def test_beside_the_speed_the_pointer_asks_what_a_step_and_a_picture_take():
     timeline = Timeline(open_experiment(Scenario(robots=[Robot(controller=lambda robot: (1, 0))])))
-    player = Player(timeline, 1.0)
-    controls, surface = Controls(player, timeline), Written((1280, 720))
+    player, surface = Player(timeline, 1.0), Written((1280, 720))
     layout = Layout.of(surface.get_size(), controls=True)
     beside = layout.slider.right - 10, layout.slider.centery
 
     def says(pointer):
         surface.words.clear()
-        controls.draw(surface, layout, painter(layout, LIGHT), pointer, lambda drag: False)
+        slider, brush, told = SpeedSlider(RUNGS), painter(layout, LIGHT), costs(player)
+        slider.draw(surface, layout.slider, brush, 1.0, pointer=pointer, costs=told)
         return [text for text in surface.texts if text.partition(":")[0] in ("ms", "µs")]
 
     assert says(beside) == []  # nothing was done yet

@@ -130,7 +130,7 @@ def test_the_arenas_have_the_same_width_and_lie_above_the_plot(size, text):
 
 @pytest.fixture
 def compare(open_window):
-    return lambda experiment, speed="max": open_window(speed, compare=experiment)
+    return lambda experiment, speed="max", **more: open_window(speed, compare=experiment, **more)
 
 
 def test_keys_and_buttons_of_time_move_all_three(compare):
@@ -166,10 +166,19 @@ def test_the_time_bar_and_the_plot_are_scrubbed_and_the_wheel_zooms_all_arenas(c
     window.until(lambda s: s["scale"] == scale)
 
 
-def test_looks_help_pictures_and_leaving(compare):
-    window = compare("head_on", 1)
-    window.press("d", "z", "x")
-    window.until(lambda s: s["dark"] and s["text"] > 1 and not s["forces"])
+def test_looks_help_pictures_films_and_leaving(compare, tmp_path):
+    window = compare("head_on", 1, folder=tmp_path, text=2.2)
+    window.press("space")
+    bare = window.still()
+    window.shown.notes.say("seen at any size of text")
+    assert window.shows(lambda seen: differing(bare[:, 600:], seen[:, 600:]) > 1000)
+    window.press("space", "p", "v")
+    window.says("compared_1.png")
+    window.press("v")
+    window.says("film: ")
+    assert len(list(tmp_path.iterdir())) == 2
+    window.press("d", "z", "z", "x")
+    window.until(lambda s: s["dark"] and s["text"] == 1.3 and not s["forces"])
     window.press("F1")
     window.until(lambda s: s["help"] is not None)
     window.press("Escape")

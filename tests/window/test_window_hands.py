@@ -85,7 +85,7 @@ def test_a_drag_that_an_editor_interrupts_is_not_gone_on_with(open_window, room)
 
 def draw_wall(window, *corners):
     """Draw a wall in the editor; its camera may differ from the window's."""
-    scale, left, top = window.state["editor"]["camera"]
+    scale, (left, top) = (window.state["editor"][name] for name in ("scale", "origin"))
     window.press("w")
     window.until(lambda s: s["editor"]["tool"] == "wall")
     for k, (x, y) in enumerate(corners, 1):

@@ -27,6 +27,10 @@ def test_sliders_are_reached_and_set_by_keys(open_window, pushing):
     assert window.settle()["row"] == 0
     window.press("Escape", "Right")
     assert window.settle()["row"] == 1
+    window.press("shift+F2")
+    window.click(2.5, 1.5)
+    window.press("Right")
+    assert window.settle()["row"] == 2, "a click beside the panel gives keys back to the window"
 
 
 def test_panels_are_scrolled_by_keys(open_window, tmp_path):

@@ -8,6 +8,7 @@ from mars2d.core.scene import Scene, Text
 from mars2d.window.run.ending import command_for
 from tests.cases import each_case
 from tests.processes import wait_until
+from tests.window.person import differing
 from tests.window.test_window_buttons import choose
 
 FAILING = """
@@ -42,7 +43,12 @@ def test_a_ruler_lies_between_points_and_bodies_and_moves_with_these(open_window
     assert (float(metres), float(degrees)) == pytest.approx((2.5, 53.1), rel=0.02)
     window.press("Escape")
     assert length(window) == []
-    window.press("Tab", "F8", "Tab", "F8")  # from red to blue, by keys
+    window.do("mousemove", 400, 590)  # over the footer
+    window.press("Tab", "F8")
+    before = window.still()
+    window.do("mousemove", 500, 590)
+    assert differing(before, window.still()) == 0, "only in the picture it goes to the pointer"
+    window.press("Tab", "F8")  # from red to blue, by keys
     assert length(window) == ["1.500 m at \N{MINUS SIGN}90.0°"]
     window.press("Right")  # red goes ahead
     assert length(window) != ["1.500 m at \N{MINUS SIGN}90.0°"]

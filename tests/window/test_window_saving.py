@@ -62,6 +62,9 @@ def test_v_films_until_it_is_pressed_again(open_window, folder):
     assert not any((frame[60:110, :110] == red).all(axis=2).sum() > 20 for frame in frames)
     window.press("v")
     window.until(lambda s: s["filming"])
+    window.press("space")
+    window.shown.notes.clear()
+    assert window.shown._moves, "a film goes on while time stands still"
     window.do("sleep", 3)
     window.press("ctrl+q")  # closing the window ends the film
     window.until(lambda s: s.get("left"))

@@ -65,21 +65,14 @@ def test_what_is_plotted_is_saved_as_a_figure(open_window, pushing, tmp_path):
     assert min(size) > 200
 
 
-def test_the_scopes_of_a_file_are_open_and_follow_when_it_is_edited(open_window, pushing):
+def test_the_scopes_of_a_file_are_open_and_keys_show_less_time_and_more(open_window, pushing):
     pushing.write_text(PUSHING + '\n\nscopes = ["speed", gap]\n')
     window = open_window(1, experiment=str(pushing))
     window.until(lambda s: {"speed", "gap"} <= {*s["areas"]})
-    window.press("q")
-    choose(window, "gap")
-    window.until(lambda s: "gap" not in s["scopes"])
-
-
-def test_keys_show_less_time_and_more_in_the_plots(open_window, pushing):
-    window = open_window(0, experiment=str(pushing))
-    window.press("q")
-    choose(window, "x")
-    window.until(lambda s: "x" in s["areas"])
-    window.press("Escape", "comma", "comma")
+    window.press("comma", "comma")
     assert window.shown.dock.scopes.span == pytest.approx(10 / 1.25**2)
     window.press("period", "period", "period")
     assert window.shown.dock.scopes.span is None
+    window.press("q")
+    choose(window, "gap")
+    window.until(lambda s: "gap" not in s["scopes"])

@@ -9,7 +9,6 @@ from mars2d import Holonomic, InputError, Robot, Scenario, Unicycle, World
 from mars2d.addons import Map
 from mars2d.bodies.joints import Spring
 from mars2d.bodies.props import Box, Puck
-from mars2d.world.verify import rerun
 from tests.cases import each_case
 
 WALL = Map([[(1.0, -3.0), (1.0, 3.0)]])
@@ -240,7 +239,7 @@ def test_what_makes_no_sense_is_refused_and_nothing_happens(act, words):
     with pytest.raises(InputError, match=words):
         act(world.operator)
     assert world.operator.log == []
-    assert world.operator.driven == ()
+    assert world.operator.driven == {}
     world.step()
 
 
@@ -254,43 +253,3 @@ def test_where_no_forces_act_nothing_can_be_pulled_but_put_elsewhere(physics):
     world.operator.place(0, (1, 1, 1))
     world.step()
     assert world.pose[:, 0].tolist() == [1, 1, 1]
-
-
-# -- the record ------------------------------------------------------------------------------------
-
-
-def rerun_is_the_same(world):
-    world.break_off("enough")
-    return rerun(world.record) is None
-
-
-def poked(seed=0):
-    """A world of robots and props with all that hands do, run for 40 steps."""
-    robots = [ROBOT.replace(controller=straight), ROBOT.at(2, 2), ROBOT.at(-2, 1)]
-    props = [
-        Box(name="box0", pose=(0.5, 0, 0.2), length=0.3, width=0.3, mass=1.0),
-        Puck(name="puck", pose=(-1, -1, 0), mass=0.5),
-    ]
-    world = World(Scenario(robots=robots, props=props, addons=[WALL]), seed=seed)
-    for k in range(40):
-        if k == 3:
-            world.operator.pull("puck", (0.02, 0.0), (0.5, -0.5))
-        if k >= 5:
-            world.operator.pull("puck", (0.02, 0.0), (0.5 + 0.01 * k, -0.4))
-        if k == 10:
-            world.operator.place("robot1", (2.0, -2.0, 1.0))
-            world.operator.place("box0", (-1.0, 2.0, 1.0))
-        if k == 12:
-            world.operator.steer("robot2", (0.3, 1.0))
-        if k == 20:
-            world.operator.steer("robot2", None)
-            world.operator.pull("puck", (0, 0), None)
-        if k == 25:
-            world.operator.place("robot0", (0.0, -2.0, 2.0))
-            world.operator.push("puck", (1.5, -0.5), 0.73, (0.01, 0.0))
-        world.step()
-    return world
-
-
-def test_a_run_that_hands_were_put_to_is_the_same_again_to_the_bit():
-    assert rerun_is_the_same(poked())

@@ -9,7 +9,8 @@ from mars2d import InputError, load
 from mars2d.cli.command_line import main
 from mars2d.record.interventions import Change
 from mars2d.scenario.experiment import Experiment, open_experiment
-from mars2d.world.timeline import Timeline, options_of
+from mars2d.world.branch import options_of
+from mars2d.world.timeline import Timeline
 from mars2d.world.verify import rerun
 
 FILE = """

@@ -13,8 +13,8 @@ from mars2d.bodies.props import Box
 from mars2d.core.errors import InputError
 from mars2d.scenario.examples import examples
 from mars2d.scenario.experiment import Experiment, open_experiment
+from mars2d.world.branch import MOST
 from mars2d.world.loop import simulate
-from mars2d.world.past import MOST
 from mars2d.world.timeline import Timeline
 from mars2d.world.verify import rerun
 from tests.cases import each_case
@@ -40,14 +40,12 @@ def run_to(timeline, row):
 
 @pytest.fixture
 def written(tmp_path):
-    """Write an experiment's file and return a timeline of it, with what it is run by."""
+    """Write an experiment's file, and others beside it; return its path."""
 
-    def write(text, name="walk.py", **others):
-        for other, content in others.items():
-            (tmp_path / f"{other}.py").write_text(content)
-        path = tmp_path / name
-        path.write_text(text)
-        return path
+    def write(text, **others):
+        for name, content in {"walk": text, **others}.items():
+            (tmp_path / f"{name}.py").write_text(content)
+        return tmp_path / "walk.py"
 
     return write
 
@@ -80,7 +78,7 @@ def test_an_example_gone_back_in_is_the_same_to_the_bit(name):
     for row in (last // 2, last // 3, 2 * last // 3, 0, last - 1):
         timeline.go(row)
         world = branch(timeline)
-        assert timeline.remark == ""
+        assert timeline.branch.doubt == ""
         assert world.iteration == row
         assert np.array_equal(world.pose, expected.pose[row])
         finish(timeline)
@@ -165,7 +163,7 @@ def test_memory_of_every_kind_is_rebuilt(memory):
     for row in (100, 199, 0):
         timeline.go(row)
         branch(timeline)
-        assert timeline.remark == ""
+        assert timeline.branch.doubt == ""
         finish(timeline)
         assert timeline.record.digest == expected.digest
 
@@ -199,10 +197,19 @@ def test_a_world_goes_on_from_the_last_snapshot_and_repeats_only_what_follows():
         Noting.steps.clear()
         branch(timeline)
         assert Noting.steps == [*range(64, row + 1)]
-        assert timeline.remark == ""
+        assert timeline.branch.doubt == ""
     finish(timeline)
     assert timeline.record.digest == expected.digest
-    assert len(timeline._past._snapshots) <= MOST
+    assert len(timeline.branch.snapshots) <= MOST
+    timeline.go(300)
+    Noting.steps.clear()
+    assert timeline.set({"robots.robot0.mass": 2.0}) == ""
+    assert Noting.steps[0] == 256, "a slider whose laws are the same needs no new start either"
+    assert timeline.world.scenario.robots[0].mass == 2.0
+    assert timeline.branch.snapshots
+    timeline.restart()
+    assert len(timeline.others) == 4
+    assert not any(each.snapshots for each in timeline.others), "which take memory"
 
 
 # -- hands -----------------------------------------------------------------------------------------
@@ -240,7 +247,7 @@ def test_what_hands_did_is_done_again(memory, row):
     timeline.go(row)
     shown = timeline.frame.pose
     branch(timeline)
-    assert timeline.remark == ""
+    assert timeline.branch.doubt == ""
     assert np.array_equal(timeline.world.pose, shown)
     assert np.array_equal(timeline.world.history.pose, before.pose[:row])
     assert timeline.world.scenario.addons == before.scenario_at(row).addons
@@ -269,7 +276,7 @@ def test_what_hands_did_is_undone_and_the_run_with_it_is_a_branch(written):
     steered = timeline.undo()  # the whole drive
     assert (steered.row, timeline.row, timeline.newest) == (10, 10, 10)
     assert timeline.world.prop_pose[:2, 0].tolist() == [2, 2]
-    assert [branch.iteration for branch in timeline.branches] == [13]
+    assert [branch.world.iteration for branch in timeline.branches] == [13]
     timeline.undo()
     assert timeline.world.prop_pose[:2, 0].tolist() == [0, 0]
     assert np.array_equal(timeline.world.pose, untouched)
@@ -308,13 +315,13 @@ def test_a_branch_of_a_branch_and_back(memory):
     timeline.change(lambda w: w.operator.place(1, (4.0, -4.0, 0.0)))
     run_to(timeline, 140)
     second, first = timeline.world, timeline.branches[1]
-    assert timeline.parted(first) == 120
-    assert timeline.parted(timeline.branches[0]) == 80
+    assert timeline.branch.common(first) == 120
+    assert timeline.branch.common(timeline.branches[0]) == 80
     timeline.show(timeline.others[0])
     assert timeline.record.digest == expected.digest
     assert timeline.row == 140
     timeline.show(timeline.others[0])
-    assert timeline.world is first
+    assert timeline.world is first.world
     timeline.go(100)
     timeline.show(timeline.others[0])
     assert timeline.world is second
@@ -322,7 +329,7 @@ def test_a_branch_of_a_branch_and_back(memory):
     timeline.go(130)
     branch(timeline)
     assert np.array_equal(timeline.world.pose, second.history.pose[130])
-    assert timeline.remark == ""
+    assert timeline.branch.doubt == ""
 
 
 def test_a_world_at_its_start_and_one_that_is_over_can_be_changed(written):
@@ -341,7 +348,7 @@ scenario = Scenario(robots=[Robot(controller=law)], stop_time=50, sampling_time=
     last = timeline.newest
     timeline.change(lambda w: w.operator.place(0, (-1.0, 0.0, 0.0)))
     assert not timeline.over
-    assert [world.over_message for world in timeline.branches] == ["there"]
+    assert [branch.world.over_message for branch in timeline.branches] == ["there"]
     finish(timeline)
     assert timeline.newest > last + 10
     timeline.go(0)
@@ -416,7 +423,7 @@ scenario = Scenario(robots=[Robot(name="red", controller=lambda robot: (0.1, {so
     poses = timeline.world.history.pose.copy()
     timeline.go(40)
     branch(timeline)
-    assert "the law of red gave another command at step 0" in timeline.remark
+    assert "the law of red gave another command at step 0" in timeline.branch.doubt
     assert np.array_equal(timeline.world.history.pose, poses[:40])
     assert len(timeline.branches) == 1
 
@@ -457,7 +464,7 @@ def test_a_way_back_can_be_broken_off(memory, monkeypatch):
         return len(told) < 2
 
     with monkeypatch.context() as patch, pytest.raises(InputError, match="nothing was changed"):
-        patch.setattr("mars2d.world.past.SLICE", 0.001)
+        patch.setattr("mars2d.world.branch.SLICE", 0.001)
         branch(timeline, progress)
     assert len(told) == 2
     assert 0 <= told[0] <= told[1] < 1
@@ -495,7 +502,7 @@ def test_laws_read_again_are_in_effect_from_the_present_row(written):
     assert (command[20:] == (0.1, 0.5)).all()
     timeline.go(25)
     branch(timeline)
-    assert timeline.remark == ""
+    assert timeline.branch.doubt == ""
     run_to(timeline, 30)
     assert np.array_equal(timeline.world.history.command[:, :, 0], command)
 
@@ -516,9 +523,25 @@ def test_in_the_past_they_make_a_branch(written):
     assert timeline.world.history.command[-1].ravel().tolist() == [0.2, 0.0]  # of its own law
     timeline.go(5)
     branch(timeline)
-    assert timeline.remark == ""  # no wonder that the new law asks for something else
+    assert timeline.branch.doubt == ""  # no wonder that the new law asks for something else
     timeline.advance()
     assert timeline.world.history.command[-1].ravel().tolist() == [0.1, 0.5]
+
+
+def test_what_is_read_at_the_end_holds_where_something_is_changed(written):
+    text = STRAIGHT.replace("sampling_time=0.1,", "sampling_time=0.1, stop_time=2.0,")
+    path = written(text)
+    timeline = Timeline(open_experiment(path))
+    finish(timeline)
+    path.write_text(text.replace("0.2, 0.0", "0.1, 0.5").replace("(4, -1)", "(4, -2)"))
+    assert timeline.take(open_experiment(path)).startswith("in effect where you go back")
+    assert timeline.over
+    timeline.go(10)
+    branch(timeline)
+    assert timeline.scenario.obstacles == (((4.0, -2.0), (4.0, 1.0)),)
+    timeline.advance()
+    assert timeline.world.history.command[-1].ravel().tolist() == [0.1, 0.5]
+    assert timeline.branch.doubt == ""
 
 
 def test_laws_read_again_have_watched_what_was_before(written):
@@ -570,16 +593,12 @@ def test_walls_that_were_read_again_stand_from_now_on_and_drawn_ones_stay(writte
         ("Robot(sensors", "Robot(diameter=0.7, sensors", "robot0"),
     ],
 )
-def test_what_needs_a_new_start_is_said_and_nothing_happens(written, old, new, words):
+def test_what_needs_a_new_start_starts_again_and_says_why(written, old, new, words):
     path = written(STRAIGHT)
     timeline = Timeline(open_experiment(path))
     run_to(timeline, 10)
-    world = timeline.world
     path.write_text(STRAIGHT.replace(old, new))
-    with pytest.raises(InputError, match=words):
-        timeline.take(open_experiment(path))
-    assert timeline.world is world
-    timeline.restart(open_experiment(path))
+    assert words in timeline.take(open_experiment(path)).removeprefix("started again: ")
     assert (timeline.row, timeline.newest) == (0, 0)
 
 
@@ -611,15 +630,38 @@ def test_a_run_that_hands_changed_is_kept_when_it_is_started_anew(memory):
     run_to(timeline, 80)
     changed, (before,) = timeline.world, timeline.branches
     timeline.restart()
-    assert (timeline.newest, timeline.branches, timeline.others) == (0, [], [changed])
+    assert (timeline.newest, timeline.branches) == (0, [])
+    assert [branch.world for branch in timeline.others] == [changed, before.world]
     assert not timeline.touched
     assert timeline.changed
     finish(timeline)
     assert timeline.record.digest == simulated(memory).digest
     assert [len(branch) for branch in timeline.record.branches] == [80, 60]
+    again = timeline.world
+    timeline.go(5)
     timeline.show(timeline.others[0])
     assert (timeline.world, timeline.branches, timeline.row) == (changed, [before], 80)
+    shown = [changed]
+    for _ in range(3):
+        timeline.show(timeline.others[0])
+        shown.append(timeline.world)
+    assert shown == [changed, before.world, again, changed], "each in turn"
     run_to(timeline, 90)
     timeline.go(50)
     assert branch(timeline) is not changed
     assert len(timeline.branches) == 2
+
+
+def test_an_earlier_run_takes_the_laws_of_now_without_a_doubt(written):
+    path = written(STRAIGHT)
+    timeline = Timeline(open_experiment(path))
+    run_to(timeline, 20)
+    timeline.world.operator.place(0, (-1, 0, 0))
+    path.write_text(STRAIGHT.replace("0.2, 0.0", "0.1, 0.5"))
+    timeline.restart()
+    timeline.show(timeline.others[0])
+    timeline.go(10)
+    branch(timeline)
+    assert timeline.branch.doubt == ""
+    timeline.advance()
+    assert timeline.world.history.command[-1].ravel().tolist() == [0.1, 0.5]

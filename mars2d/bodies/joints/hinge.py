@@ -6,7 +6,8 @@ from math import pi
 
 from mars2d.bodies.constraints import Constraint, Pin, TurningRange, TurningSpring
 from mars2d.bodies.joints.base import Float, Joint
-from mars2d.core.description import accepts, entry, number, several, wrong
+from mars2d.core.checks import several
+from mars2d.core.description import accepts, entry, number, wrong
 from mars2d.core.scene import INK, Scene
 
 LIMITS = "(least, largest) angle from the start, radians, least <= 0 <= largest; or None"

@@ -8,14 +8,7 @@ from typing import ClassVar, Self
 from mars2d.bodies.joints.base import Joint
 from mars2d.bodies.rigid import Inertia, Rigid, Surface, inertia_of
 from mars2d.core import checks
-from mars2d.core.description import (
-    Description,
-    choice,
-    entry,
-    number,
-    several,
-    text,
-)
+from mars2d.core.description import Description, choice, entry, number, text
 from mars2d.core.materials import (
     MATERIALS,
     Coefficient,
@@ -49,7 +42,7 @@ class Prop(Description):
         doc="initial pose (x, y, theta) of the centre of mass",
     )  # fmt: skip
     velocity: tuple[float, float, float] = entry(
-        default=(0.0, 0.0, 0.0), check=several(-MAX_SPEED, MAX_SPEED, 3, _LIMITS, fewer=1),
+        default=(0.0, 0.0, 0.0), check=checks.several(-MAX_SPEED, MAX_SPEED, 3, _LIMITS, fewer=1),
         unit="m/s, m/s, rad/s",
         doc="initial velocity (vx, vy, omega)",
     )  # fmt: skip

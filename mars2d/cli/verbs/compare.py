@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import argparse
-import dataclasses
 from collections.abc import Callable, Mapping
-from functools import partial
 from pathlib import Path
-from typing import Any
 
 from mars2d.cli.arguments import options_of, preferences_of, shared
 from mars2d.cli.outputs import (
@@ -18,7 +15,7 @@ from mars2d.cli.outputs import (
     picture_and_film,
     produced,
 )
-from mars2d.cli.runs import has_display, run_headless
+from mars2d.cli.runs import run_headless
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.progress import progress
 from mars2d.core.terminal import aligned, tell
@@ -26,6 +23,7 @@ from mars2d.output.figures.comparison import MODES, Drift, plot_comparison
 from mars2d.output.figures.figure import save_drawing
 from mars2d.output.films.footage import Cut
 from mars2d.scenario.experiment import Experiment, open_experiment
+from mars2d.window.screen.display import display_available
 from mars2d.window.screen.source import Playback
 from mars2d.world.record import Record
 
@@ -44,9 +42,14 @@ def execute(arguments: argparse.Namespace) -> None:
         raise InputError("--set physics: compare runs each physics by itself")
     if arguments.speed in (0, "max"):
         raise InputError("--speed: expected a number > 0")
-    opened = partial(_opened, arguments.experiment, options, arguments.seed)
+
+    def opened(mode: str) -> Experiment:
+        """Return the experiment with a physics, opened again, so that no two runs share laws."""
+        every = {**options, "physics": mode}
+        return open_experiment(arguments.experiment, every, seed=arguments.seed)
+
     if not (arguments.figure or arguments.video):
-        if not arguments.headless and has_display():
+        if not arguments.headless and display_available():
             _show(arguments, opened)
             return
         picture_and_film(arguments, FOLDER, opened("contact").scenario.stop_time)
@@ -57,17 +60,6 @@ def execute(arguments: argparse.Namespace) -> None:
         "video": lambda: _save_film(records, arguments),
     }
     conclude(*produced(arguments, makers))
-
-
-def _opened(source: str, options: dict[str, Any], seed: int, mode: str) -> Experiment:
-    """Return an experiment with a physics, opened again.
-
-    Laws keep state in generators and in their module's globals, so that no two runs share them.
-    """
-    opened = open_experiment(source, options, seed=seed)
-    scenario = opened.scenario.replace(physics=mode)
-    again = partial(_opened, source, options, seed, mode)
-    return dataclasses.replace(opened, scenario=scenario, opened=again)
 
 
 def _show(arguments: argparse.Namespace, opened: Callable[[str], Experiment]) -> None:

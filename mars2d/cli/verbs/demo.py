@@ -7,9 +7,10 @@ from pathlib import Path
 
 from mars2d.cli.arguments import option, shared
 from mars2d.cli.outputs import picture_and_film
-from mars2d.cli.runs import has_display, print_examples
+from mars2d.cli.runs import print_examples
 from mars2d.core.terminal import tell
 from mars2d.scenario.experiment import open_experiment
+from mars2d.window.screen.display import display_available
 
 FOLDER = Path("mars2d_demo")
 
@@ -33,7 +34,7 @@ def execute(arguments: argparse.Namespace) -> None:
 
     run = parse(["run", name])
     asked = argparse.Namespace(**vars(run) | vars(arguments))
-    if asked.headless or not has_display():
+    if asked.headless or not display_available():
         picture_and_film(asked, FOLDER, open_experiment(name).scenario.stop_time)
         asked.headless, asked.size = True, (640, 480)
     run.execute(asked)

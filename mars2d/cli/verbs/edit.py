@@ -38,20 +38,20 @@ def execute(arguments: argparse.Namespace) -> None:
         path = experiment.source.path or path
     require_display(NO_DISPLAY)
     from mars2d.window.editor import Editor
-    from mars2d.window.editor_window import EditorWindow
+    from mars2d.window.editor_window import play, show_editor
     from mars2d.window.screen.looks import Looks
 
-    robots_wanted = any(name.partition(".")[0] == "robots" for name in options)
     editor = Editor(
         experiment.scenario,
         Looks(preferences_of(arguments)),
         path=path,
         control=experiment.control,
-        empty=new and not robots_wanted,
+        empty=new and not any(name.partition(".")[0] == "robots" for name in options),
         changed=bool(options),
+        play=play,
     )
     try:
-        EditorWindow(editor).run()
+        show_editor(editor)
     except BaseException:  # Ctrl-C, a lost display, a fault: too late to ask for a name
         kept = editor.dialogs.rescue()
         if kept is not None:

@@ -83,7 +83,7 @@ def _drawing(arguments: argparse.Namespace, record: Record, layers: Layers | Non
     columns = {"energy": ("energy", "kinetic"), "momentum": ("momentum",)}
     return record.plot_signals(
         *columns.get(kind, arguments.columns or ()),
-        robots=_robots(arguments.robots, record),
+        robots=arguments.robots,
         start=arguments.start,
         end=arguments.end,
     )[0].figure
@@ -102,11 +102,3 @@ def _layers(words: list[str] | None, record: Record, *, paths: bool) -> Layers |
         if name not in known:
             raise InputError(f"--layers {name}: there is no such layer{nearest(name, known)}")
     return figure.layers_of(record.scenario, paths=paths).switched(**switches)
-
-
-def _robots(words: list[str] | None, record: Record) -> list[str | int] | None:
-    """Return robots by name, or by index if no robot has that name."""
-    if words is None:
-        return None
-    names = {robot.name for robot in record.scenario.robots}
-    return [int(w) if w.isdecimal() and w not in names else w for w in words]

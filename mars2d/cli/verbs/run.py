@@ -19,8 +19,8 @@ from mars2d.core.errors import InputError, counted, likely, one_line
 from mars2d.core.terminal import tell, warn
 from mars2d.output import formats
 from mars2d.output.films.footage import Drawings
+from mars2d.scenario.code_file import lesson_of
 from mars2d.scenario.experiment import Experiment, open_experiment
-from mars2d.scenario.lesson import lesson_of
 from mars2d.scenario.prediction import table
 from mars2d.scenario.roles import robots_named
 from mars2d.window import show

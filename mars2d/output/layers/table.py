@@ -44,8 +44,8 @@ def of_bodies(each: Callable[[Scene, Scenario, int, Float], None]) -> Callable[[
     """Return a layer's function of the frame, for one that draws body by body; see `Layer.each`."""
 
     def shapes(frame: Frame) -> Scene:
-        scene = Scene()
-        for body, pose in enumerate(frame.all_poses.T):
+        scene, bodies, n = Scene(), [*enumerate(frame.all_poses.T)], frame.pose.shape[1]
+        for body, pose in (*bodies[n:], *bodies[:n]):  # the last name is never left out
             each(scene, frame.scenario, body, pose)
         return scene
 

@@ -31,9 +31,12 @@ class Body(DrivenBody):
     # what the floor may do
     allowed: cython.double  # N and N m that it may use now
     twist_allowed: cython.double
-    applied_x: cython.double  # N and N m that all else did in the last substep, if it lasts
+    drift_x: cython.double  # m/s, the velocity towards which it draws the body
+    drift_y: cython.double
+    applied_x: cython.double  # N and N m of all else but a pull in the last substep, if it lasts
     applied_y: cython.double
     applied_turn: cython.double
+    known: cython.bint  # whether it did, and no contact pushed, whose impulses come in turns
     # a pull from outside
     pulled: cython.bint
     pull_x: cython.double

@@ -24,11 +24,12 @@ def hold(body: Body, h: cython.double) -> cython.void:
 
     What else acts on it is thought to go on. If the floor can stop it within the substep, or hold
     it where it rests, that takes no more than it can: else it shares its force between sliding and
-    spinning as for the mean of the velocities before and after.
+    spinning as for the mean of the velocities before and after, and acts against that mean where it
+    is known, elsewhere against the velocity after.
     """
-    x: cython.double = body.applied_x * (h / body.mass)
-    y: cython.double = body.applied_y * (h / body.mass)
-    turn: cython.double = body.lever * body.applied_turn * (h / body.moment)
+    x: cython.double = (body.applied_x + body.pull_x) * (h / body.mass)
+    y: cython.double = (body.applied_y + body.pull_y) * (h / body.mass)
+    turn: cython.double = (body.applied_turn + body.pull_torque) * (body.lever * h / body.moment)
     spin: cython.double = body.lever * body.spin
     slide: cython.double = body.slows * h
     twist: cython.double = body.lever * body.stops * h
@@ -36,6 +37,7 @@ def hold(body: Body, h: cython.double) -> cython.void:
     grip: cython.double = body.rest_grip if rests else body.grip
     first: cython.double = length(body.vx + x, body.vy + y) * (body.mass / h)
     second: cython.double = abs(spin + turn) / (body.lever * body.lever) * (body.moment / h)
+    body.drift_x = body.drift_y = 0.0
     if length(first, second) <= grip:
         body.allowed, body.twist_allowed = grip, grip * body.lever
         return
@@ -54,6 +56,10 @@ def hold(body: Body, h: cython.double) -> cython.void:
     size: cython.double = length(first, second)
     body.allowed = body.grip * (first / size)
     body.twist_allowed = body.twist_grip * (second / size)
+    if body.known:
+        more: cython.double = max(1.0, slide / u)
+        body.drift_x = body.vx + x - more * (body.vx + x / 2)
+        body.drift_y = body.vy + y - more * (body.vy + y / 2)
 
 
 @cython.cclass

@@ -227,14 +227,17 @@ def find_shifts(solver: Solver, h: cython.double) -> cython.void:
         group = group_of(body)
         body.eased = not group.lasting and group.hit_power > 0.0
         body.applied_x = body.applied_y = body.applied_turn = 0.0
+        body.known = group.lasting and body.pressure == 0.0
         if group.lasting:
             body.shift = h / 2
             if body.engaged and not body.is_robot:
                 solver.take_reaction(body)
-                body.applied_x = (body.mass * (body.after_x - body.before_x) - body.reaction_x) / h
-                body.applied_y = (body.mass * (body.after_y - body.before_y) - body.reaction_y) / h
+                x: cython.double = body.mass * (body.after_x - body.before_x)
+                y: cython.double = body.mass * (body.after_y - body.before_y)
                 turned: cython.double = body.moment * (body.spin - body.before_spin)
-                body.applied_turn = (turned - body.reaction_turn) / h
+                body.applied_x = (x - body.reaction_x) / h - body.pull_x
+                body.applied_y = (y - body.reaction_y) / h - body.pull_y
+                body.applied_turn = (turned - body.reaction_turn) / h - body.pull_torque
         elif group.hit_power > 0.0:
             body.shift = middle + group.hit_depth / group.hit_power
         else:

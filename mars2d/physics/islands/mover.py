@@ -372,6 +372,7 @@ class Mover:
         """End all pulls."""
         for body in self.bodies:
             body.pulled = False
+            body.pull_x = body.pull_y = body.pull_torque = 0.0
 
     def withstands(self, i: int, force: float, torque: float) -> bool:
         """Return whether a body stays where it is held under a force and a torque."""

@@ -78,6 +78,7 @@ class Solver:
         if not body.is_robot and body.rest_grip > 0.0:  # the floor is another one in each space
             body.allowed = body.twist_allowed = 0.0
             body.applied_x = body.applied_y = body.applied_turn = 0.0
+            body.known = False
             self.attach(body)
             self.engage(body)
 
@@ -101,29 +102,28 @@ class Solver:
             for other in body.pieces:
                 if other is not piece and lay(piece, other, 0.0, 0.0, body.number, self.room / 8):
                     join(piece.shape)
-        if body.is_robot:
+        if body.is_robot or body.rest_grip > 0.0:
             body.control = chipmunk.new_control()
             self.attach(body)
 
     def attach(self, body: Body) -> cython.void:
         """Make the joints of a body start again: to what drives it, or to the floor."""
-        holder: Handle = body.control if body.is_robot else chipmunk.ground_of(self.space)
         if body.wheeled:  # grooves are free along
             body.pivot = chipmunk.make_joint(
-                library.GROOVE, body.pivot, holder, body.handle, ENDS, 0.0, 1.0, 0.0
+                library.GROOVE, body.pivot, body.control, body.handle, ENDS, 0.0, 1.0, 0.0
             )
             body.side = chipmunk.make_joint(
-                library.GROOVE, body.side, holder, body.handle, ENDS, 1.0, 0.0, 0.0
+                library.GROOVE, body.side, body.control, body.handle, ENDS, 1.0, 0.0, 0.0
             )
             chipmunk.set_joint(body.side, 0.0, True)
             chipmunk.set_max_bias(body.side, 0.0)
             body.traction_ahead = body.traction_across = 0.0
         else:
             body.pivot = chipmunk.make_joint(
-                library.PIVOT, body.pivot, holder, body.handle, ENDS, 0.0, 0.0, 0.0
+                library.PIVOT, body.pivot, body.control, body.handle, ENDS, 0.0, 0.0, 0.0
             )
         body.gear = chipmunk.make_joint(
-            library.GEAR, body.gear, holder, body.handle, ENDS, 0.0, 1.0, 0.0
+            library.GEAR, body.gear, body.control, body.handle, ENDS, 0.0, 1.0, 0.0
         )
         chipmunk.set_joint(body.pivot, 0.0, True)  # powers of 0 are the same everywhere
         chipmunk.set_joint(body.gear, 0.0, True)
@@ -245,7 +245,7 @@ class Solver:
         for k in range(len(tie.parts)):
             if tie.parts[k][0] != library.ROTARY_LIMIT and tie.parts[k][0] != library.ROTARY_SPRING:
                 part = tie.joints[k]
-                most = max(most, chipmunk.used_of(part.handle))
+                most = max(most, abs(chipmunk.used_of(part.handle)))
         return most
 
     def rebound(self, tie: Tie, h: cython.double) -> cython.void:
@@ -570,6 +570,7 @@ class Solver:
         torque: cython.double = body.twist_allowed
         if body.solved:
             hold(body, h)
+            chipmunk.aim(body.control, body.drift_x, body.drift_y, 0.0)
         else:
             body.allowed = body.twist_allowed = 0.0
         if body.allowed != force or body.twist_allowed != torque:
@@ -605,7 +606,6 @@ def free_things_of(body: Body) -> cython.void:
         if body.wheeled:
             chipmunk.free_joint(body.side)
         chipmunk.free_joint(body.gear)
-    if body.is_robot:
         chipmunk.free_body(body.control)
     chipmunk.free_body(body.handle)
     body.pivot = body.side = body.gear = cython.NULL

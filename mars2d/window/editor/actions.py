@@ -67,9 +67,6 @@ def actions_of(editor: Editor) -> dict[str, tuple[Action, ...]]:
     def chosen(name: str) -> bool:
         return name == editor.tool_name
 
-    def switch(whole: object, name: str) -> None:
-        setattr(whole, name, not getattr(whole, name))
-
     here = (
         key("now", "Enter", "go on from now with the drawing", partial(dialogs.apply, "now"),
             title="Go on", on=lambda: True),
@@ -82,7 +79,7 @@ def actions_of(editor: Editor) -> dict[str, tuple[Action, ...]]:
         key("leave", "Ctrl Q", "leave; asks first if something would be lost", dialogs.leave,
             "Ctrl W"),
     )  # fmt: skip
-    run = key("run", "F5", "save and run; closing the run returns here", dialogs.run, "Ctrl R",
+    run = key("run", "F5", "save and run; closing the run returns here", editor.run, "Ctrl R",
               title="Run", on=lambda: not desk.changed)  # fmt: skip
     return {
         "Tools": tuple(
@@ -100,21 +97,21 @@ def actions_of(editor: Editor) -> dict[str, tuple[Action, ...]]:
             key("delete", "Del", "remove the selection, or its corner", desk.remove, "Backspace"),
             key("duplicate", "Ctrl D", "duplicate the selection, or its corner", desk.duplicate),
             key("workspace", "M", "select the workspace, or make one", editor.select_workspace),
-            key("all", "Ctrl A", "select all", editor.select_all),
+            key("all", "Ctrl A", "select all", lambda: editor.select(desk.draft.items())),
             key("next", "Tab", "select the next item", editor.select_next),
             key("more", "Shift Tab", "select the next item, too",
                 partial(editor.select_next, too=True)),
             key("properties", "F2", "choose a property to change",
-                partial(setattr, editor.panel, "focused", True)),
+                editor.properties.focus),
             key("undo", "Ctrl Z", "undo", editor.undo,
                 title="Undo", when=lambda: desk.has(-1), repeats=True),
             key("redo", "Ctrl Y", "redo", partial(desk.go, 1), "Ctrl Shift Z",
                 title="Redo", when=lambda: desk.has(1), repeats=True),
         ),
         "Look": (
-            key("snap", "G", "snap to the grid on and off", partial(switch, desk, "snaps"),
+            key("snap", "G", "snap to the grid on and off", desk.snap_or_not,
                 title="Snap", icon=SNAP, on=lambda: desk.snaps),
-            key("names", "I", "names on and off", partial(switch, editor, "names")),
+            key("names", "I", "names on and off", editor.switch_names),
             key("fit", "F", "fit the workspace into the window", lambda: fit(desk.draft.sketch)),
             key("nearer", "Ctrl +", "zoom in", partial(zoom, 2.0), "Ctrl =", "Ctrl [+]"),
             key("farther", "Ctrl \N{MINUS SIGN}", "zoom out", partial(zoom, -2.0), "Ctrl [-]"),

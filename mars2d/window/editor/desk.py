@@ -10,9 +10,7 @@ import shapely
 
 from mars2d.core.errors import InputError
 from mars2d.core.plane import Outline, Point, grid_step
-from mars2d.output.raster.camera import Camera
-from mars2d.window.editor.draft import Draft
-from mars2d.window.editor.item import Item, Motion, tidy
+from mars2d.window.editor.draft import LEAST, Draft, Item, Motion, tidy
 from mars2d.window.screen.viewpoint import Viewpoint
 
 MIN_GRID_STEP = 9.0
@@ -143,7 +141,7 @@ class Desk:
         but: items that are looked through.
         """
         shapes = {item: s for item, s in self.draft.shapes.items() if item not in but}
-        small = [item.kind in ("waypoint", "beacon") for item in shapes]
+        small = [isinstance(shape, shapely.Point) for shape in shapes.values()]
         gaps = shapely.distance([*shapes.values()], shapely.Point(point))
         gaps = np.maximum(gaps - self.metres(POINT_RADIUS) * np.array(small), 0.0)
         least = gaps.min(initial=self.metres(NEAR))
@@ -164,18 +162,13 @@ class Desk:
     # -- changes ----------------------------------------------------------------------------------
 
     def remove(self) -> None:
-        """Remove the last touched corner, or else the selection."""
-        item, corners, number = self.only, self.corners, self.corner
-        if item is None or number is None:
-            if self.selection:
-                self.put(self.draft.without(self.selection))
-                self.select()
-            return
-        least = 2 if item.kind == "wall" or len(corners) == 2 else 3
-        if len(corners) == least:
-            raise InputError(f"{self.draft.name(item)} needs {least} corners")
-        self.corner = None
-        self.put(self.draft.with_corner(item, number))
+        """Remove the last touched corner, or else the selection; so an item goes with its last."""
+        item, number, self.corner = self.only, self.corner, None
+        if item is None or number is None or len(self.corners) <= LEAST[item.kind]:
+            self.put(self.draft.without(self.selection))
+            self.select()
+        else:
+            self.put(self.draft.with_corner(item, number))
 
     def duplicate(self) -> None:
         """Put a copy beside the selection, and select it; of a corner, half-way to the next one."""
@@ -189,12 +182,9 @@ class Desk:
         aside = Motion(by=(2 * self.step, -2 * self.step))
         self.put(self.draft.copied(items, aside), shows=True)
 
-    def nudge(self, dx: int, dy: int, *, fine: bool) -> None:
-        """Move the last touched corner, or else the selection, by steps of the grid.
-
-        fine: by tenths of a step.
-        """
-        step = self.step * (0.1 if fine else 1.0)
+    def nudge(self, dx: int, dy: int) -> None:
+        """Move the last touched corner, or else the selection, by steps or with Shift by tenths."""
+        step = self.step * (0.1 if self.shift else 1.0)
         moved = Motion(by=(dx * step, dy * step))
         if self.corner is not None and self.only is not None:
             place = moved.point(self.corners[self.corner])
@@ -205,24 +195,24 @@ class Desk:
     # -- the view ---------------------------------------------------------------------------------
 
     @property
-    def camera(self) -> Camera:
-        """The camera of the drawing."""
-        return self.viewpoint.camera
-
-    @property
     def step(self) -> float:
         """The step of the grid to which points snap, metres."""
         return grid_step(self.metres(MIN_GRID_STEP))
 
     def metres(self, points: float) -> float:
         """Return the length of points of the screen, metres."""
-        return points * self.viewpoint.layout.ui / self.camera.scale
+        return points * self.viewpoint.layout.ui / self.viewpoint.camera.scale
 
     def snapped(self, point: Point) -> Point:
         """Return the nearest grid point; without snapping, the point to a fraction of a pixel."""
         step = self.step if self.snaps else 10.0 ** floor(log10(self.metres(1.0)))
         x, y = (tidy(round(value / step) * step) for value in point)
         return x, y
+
+    def snap_or_not(self) -> None:
+        """Let points snap to the grid from now on, or no longer."""
+        self.snaps = not self.snaps
+        self.say(f"points snap to a grid of {self.step:g} m" if self.snaps else "points are free")
 
     def near(self, a: Point, b: Point, points: float) -> bool:
         """Return whether two points are at most this near on the screen."""

@@ -1,23 +1,22 @@
-"""The editor's dialogs: save, run, go on with a paused run, leave."""
+"""The editor's dialogs: save, go on with a paused run, leave."""
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass
 from itertools import chain, count
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from mars2d.core.errors import InputError
 from mars2d.scenario import toml_file
 from mars2d.scenario.changes import check_same
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.editor.desk import Desk
 from mars2d.window.screen.saving import free_name
-from mars2d.window.widgets.menu import Menu
 from mars2d.window.widgets.prompt import Answer, Prompts
+
+if TYPE_CHECKING:
+    from mars2d.window.editor.editor import Editor
 
 UNTITLED = Scenario.__dataclass_fields__["title"].default
 Then = Callable[[], None]
@@ -32,51 +31,37 @@ class Outcome:
 
 
 class Dialogs(Prompts):
-    """Asks whether to save, run or apply a draft, and does it; keeps the file that it is saved to.
+    """Asks whether to save or apply a draft, and does it; keeps the file that it is saved to.
 
-    complete: finishes the outline that is being drawn. path: of the file, None if it has no name
-    yet; one that does not end in .toml only lends its name. control: the law of the team. before:
-    the scenario of the paused run that is edited, None without one.
-
-    new: whether no file exists yet. done: whether the editor is left. outcome: of a paused run.
-    to_run: a file that is to be run.
+    wanted: the file, or a proposal for its name. path: of the file, None if it has no name yet.
+    control: the law of the team. new: whether no file exists yet. done: whether the editor is left.
+    outcome: of a paused run.
     """
 
-    def __init__(
-        self,
-        desk: Desk,
-        menu: Menu,
-        complete: Callable[[], object],
-        path: Path | None,
-        control: Callable[[Any], Any] | None = None,
-        before: Scenario | None = None,
-    ) -> None:
-        """Start without a question, and without reading or writing anything."""
-        super().__init__(menu)
+    def __init__(self, editor: Editor, path: Path | None, control: Any = None) -> None:
+        """Start without a question, and without reading or writing anything.
+
+        path, control: as for the editor.
+        """
+        super().__init__(editor.menu)
         self.done = False
         self.outcome: Outcome | None = None
-        self.to_run: Path | None = None
-        self._desk, self._complete = desk, complete
-        self._before, self.control = before, control
-        self._wanted = (path or Path("scenario.toml")).with_suffix(toml_file.SUFFIX)
+        self._editor, self._desk, self.control = editor, editor.desk, control
+        self._before = editor.desk.draft.base
+        self.wanted = (path or Path("scenario.toml")).with_suffix(toml_file.SUFFIX)
         toml = path is not None and path.suffix.lower() == toml_file.SUFFIX
         self.path = path if toml else None
         self.new = self.path is None or not self.path.exists()
 
     @property
-    def name(self) -> str:
-        """The file's name, or a proposal."""
-        return self._wanted.name
-
-    @property
     def proposal(self) -> str:
         """A path that is still free."""
-        others = (self._wanted.with_stem(f"{self._wanted.stem}_{k}") for k in count(2))
-        return str(next(path for path in chain([self._wanted], others) if not path.exists()))
+        others = (self.wanted.with_stem(f"{self.wanted.stem}_{k}") for k in count(2))
+        return str(next(path for path in chain([self.wanted], others) if not path.exists()))
 
     def _valid(self, doing: str) -> Scenario:
         """Return the scenario. Raises InputError if the draft is not valid."""
-        self._complete()
+        self._editor.tool.confirm()
         verdict = self._desk.draft.verdict
         if verdict.scenario is None:
             raise InputError(f"{doing}: {verdict.text}")
@@ -88,17 +73,15 @@ class Dialogs(Prompts):
         """Save the draft, ask for a name first if there is none; then: called after saving."""
         scenario = self._valid("Not saved")
         if self.path is None:
-            answer = Answer("save", lambda text: self._save_new(scenario, _named(text), then))
+            answer = Answer("save", lambda text: self._save_to(_named(text), scenario, then))
             self.ask("Save as", answer, text=self.proposal, doc="a scenario file, in TOML")
-        elif self.new:
-            self._save_new(scenario, self.path, then)
         else:
-            self._write(scenario, self.path, then)
+            self._save_to(self.path, scenario, then)
 
-    def _save_new(self, scenario: Scenario, path: Path, then: Then) -> None:
-        """Save to a file of a name that has just been chosen."""
+    def _save_to(self, path: Path, scenario: Scenario, then: Then) -> None:
+        """Save to a file; ask first if it is another scenario's."""
         answer = Answer("overwrite it", lambda _: self._write(scenario, path, then))
-        if path.exists():
+        if self.new and path.exists():
             self.ask(f"{path} is there already.", answer)
         else:
             answer.act("")
@@ -107,8 +90,8 @@ class Dialogs(Prompts):
         if scenario.title == UNTITLED:
             scenario = scenario.replace(title=path.stem.replace("_", " ").capitalize())
         missing = toml_file.save_scenario(scenario, path, self.control)
-        self.path, self._wanted, self.new = path, path, False
-        if self._before is None:
+        self.path, self.wanted, self.new = path, path, False
+        if not self._editor.live:
             self._desk.save(self._desk.draft.with_base(title=scenario.title))
         without = f", without what is code: {', '.join(missing)}" if missing else ""
         self._desk.say(f"Saved {path}{without}")
@@ -117,37 +100,24 @@ class Dialogs(Prompts):
     def rescue(self) -> Path | None:
         """Save unsaved work to a new file, for when the person can no longer be asked.
 
-        The last valid draft is saved, beside the own file or in the temporary folder. Return the
-        file; None if there is nothing to save.
+        Return the file with the last valid draft; None if there is nothing to save.
         """
         desk = self._desk
-        if self._before is not None or not desk.changed:
-            return None
-        desk.drop()
-        while (scenario := desk.draft.verdict.scenario) is None:
-            if not desk.has(-1):
-                return None
+        while desk.settled.verdict.scenario is None and desk.has(-1):
             desk.go(-1)
-        for folder in (self._wanted.parent, Path(tempfile.gettempdir())):
-            with suppress(InputError):
-                path = free_name(folder, f"{self._wanted.stem}_unsaved", toml_file.SUFFIX)
-                toml_file.save_scenario(scenario, path, self.control)
-                return path
-        return None
+        scenario = desk.settled.verdict.scenario
+        if scenario is None or not desk.changed:
+            return None
+        path = free_name(self.wanted.parent, f"{self.wanted.stem}_unsaved", toml_file.SUFFIX)
+        toml_file.save_scenario(scenario, path, self.control)
+        return path
 
-    # -- run, go on, leave ----------------------------------------------------------------------
-
-    def run(self) -> None:
-        """Ask for a run of the file; save it first if need be."""
-        if self._desk.changed or self.new:
-            self.save(then=self.run)
-        else:
-            self.to_run = self.path
+    # -- go on, leave ---------------------------------------------------------------------------
 
     def apply(self, when: Literal["now", "start"]) -> None:
         """Leave, and continue the paused run with the draft."""
         scenario = self._valid("Not yet")
-        if when == "now" and self._before is not None:
+        if when == "now":
             try:
                 check_same(self._before, scenario)
             except InputError as error:
@@ -155,11 +125,11 @@ class Dialogs(Prompts):
         self.outcome, self.done = Outcome(scenario, when), True
 
     def leave(self) -> None:
-        """Leave; ask first if work would be lost."""
+        """Leave; ask first if work would be lost, but not a second time."""
         discard = Answer("discard", lambda _: self._discard(), "Backspace")
-        if not self._desk.changed:
+        if self.prompt is not None or not self._desk.changed:
             self._discard()
-        elif self._before is not None:
+        elif self._editor.live:
             now = Answer("from now", lambda _: self.apply("now"))
             anew = Answer("from the start", lambda _: self.apply("start"), "Shift Enter")
             self.ask("Use what was drawn?", now, anew, discard, escape="stay")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from math import radians
 from pathlib import Path
@@ -12,22 +12,20 @@ import pygame
 
 from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.plane import Point, rectangle
-from mars2d.core.scene import Scene
+from mars2d.core.scene import Scene, faded
 from mars2d.output.layers.table import Layers
 from mars2d.output.raster.bars import Banner, draw_footer, footer_height
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.stage import Stage
+from mars2d.output.raster.theme import LIGHT
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.editor.actions import TOOLS, actions_of
 from mars2d.window.editor.desk import Desk
 from mars2d.window.editor.dialogs import Dialogs
-from mars2d.window.editor.draft import Draft
+from mars2d.window.editor.draft import Draft, Item, Motion
 from mars2d.window.editor.grips import NOTCH, ring_of
-from mars2d.window.editor.item import Item, Motion
-from mars2d.window.editor.marks import draw_marks, draw_remarks, minus
 from mars2d.window.editor.properties import Properties
-from mars2d.window.editor.tools import Tool
-from mars2d.window.editor.verdict import Verdict
+from mars2d.window.editor.tools import MARK, PAPER, Tool, draw_outline
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.viewpoint import Viewpoint, wheel_notches
 from mars2d.window.widgets.actions import action_of, label_of
@@ -35,6 +33,7 @@ from mars2d.window.widgets.buttons import Buttons
 from mars2d.window.widgets.help import Help
 from mars2d.window.widgets.menu import Menu
 from mars2d.window.widgets.prompt import Answer
+from mars2d.window.widgets.rows import Word, minus, width_of, write_line
 from mars2d.window.widgets.slider import draw_tooltip
 
 NUDGES = {"←": (-1, 0), "→": (1, 0), "↑": (0, 1), "↓": (0, -1)}
@@ -51,8 +50,7 @@ PANEL, MAX_PANEL, ARENA = 268.0, 0.34, 0.405
 """The width of the panel, points, its largest share of the window's width, and the share of the
 window that it leaves to the drawing."""
 PANEL_HINT = "Arrows choose a row, Enter opens it, Esc leaves"
-STEP = 16.0
-"""The height of the line below them, with the step of the grid, points."""
+IDLE, IDLE_SIZE, RED = LIGHT.waiting.ink, 12.0, LIGHT.error.ink
 LAYERS = Layers(trails=False, sensors=False, messages=False)
 MAX_NAMED = 40
 """With more robots and props than this, names are hidden at first."""
@@ -63,8 +61,8 @@ class Editor:
 
     path: the scenario's file; one that is not .toml only lends its name. live: whether a paused run
     is edited, which can continue with the outcome. control: the team's law, for the file. empty:
-    start without robots. changed: the scenario differs from the file. dialogs: save, run or apply
-    the draft. names: whether names are shown.
+    start without robots. changed: the scenario differs from the file. play: runs a file in a window
+    that looks as this one does. dialogs: save or apply the draft. names: whether names are shown.
     """
 
     def __init__(
@@ -77,30 +75,26 @@ class Editor:
         control: Callable[[Any], Any] | None = None,
         empty: bool = False,
         changed: bool = False,
+        play: Callable[[Path, Looks, Viewpoint], object] = lambda *_: None,
     ) -> None:
         """Open a scenario; nothing is drawn yet."""
-        self.looks, self.live = looks, live
+        self.looks, self.live, self.help, self._play = looks, live, Help(), play
         painter = self.painter = looks.painter
-        self.help = Help()
         draft = Draft(scenario)
         if empty:  # no scenario can be without robots
             draft = draft.without([item for item in draft.items() if item.kind == "robot"])
-        self.viewpoint = Viewpoint(draft.sketch, self._laid_out((1280, 720)))
+        self.viewpoint = Viewpoint(draft.sketch, looks.layout((1280, 720)))
         self.desk = Desk(draft, self.viewpoint)
         if changed:
             self.desk.saved = None
         self.menu, self.panel = Menu(), Menu(docked=True)
-        self.dialogs = Dialogs(
-            self.desk, self.menu, lambda: self.tool.confirm(),  # noqa: PLW0108
-            path, control, scenario if live else None,
-        )  # fmt: skip
+        self.dialogs = Dialogs(self, path, control)
         self.properties = Properties(self)
         self._stage = Stage(painter)
         self._pointer = (-1, -1)
-        self._dragging = self._panning = False
-        self._held: set[int] = set()
+        self._panning, self._held = False, set[int]()
         self.names = len(draft.base.robots) + len(draft.base.props) <= MAX_NAMED
-        self._plain = False  # whether only the add-ons that can be edited are drawn
+        self._addons = True  # whether add-ons are drawn
         self.tool_name, self.tool = "", Tool(self.desk)
         self.choose("select")
         self.groups = actions_of(self)
@@ -113,25 +107,12 @@ class Editor:
     @property
     def title(self) -> str:
         """The text of the header."""
-        return self.desk.draft.base.title if self.live else self.dialogs.name
-
-    @property
-    def note(self) -> str:
-        """What is to be said of the title."""
-        if self.live:
-            return "the run is paused"
-        return "not saved yet" if self.desk.changed else "new" * self.dialogs.new
+        return self.desk.draft.base.title if self.live else self.dialogs.wanted.name
 
     @property
     def layout(self) -> Layout:
         """The layout."""
         return self.viewpoint.layout
-
-    @property
-    def verdict(self) -> Verdict:
-        """The verdict on the drawing; in the middle of a drag, that of before."""
-        desk = self.desk
-        return (desk.settled if self._dragging else desk.draft).verdict
 
     # -- events ---------------------------------------------------------------------------------
 
@@ -139,13 +120,15 @@ class Editor:
         """Handle an event of pygame."""
         try:
             self._take(event)
-        except InputError as error:  # a value that does not go with the others
+        except Mars2dError as error:  # a value that does not go with the others, a run that fails
             self.desk.say(str(error), warns=True)
 
     def _take(self, event: pygame.Event) -> None:
         self.desk.shift = not self._held.isdisjoint((pygame.K_LSHIFT, pygame.K_RSHIFT))
         if self.menu.handle(event):
             pass
+        elif event.type == pygame.QUIT:
+            self.dialogs.leave()
         elif event.type == pygame.KEYDOWN:
             if not self.panel.handle(event):
                 self._press_key(event)
@@ -153,7 +136,9 @@ class Editor:
             self._held.discard(event.key)
         elif event.type == pygame.WINDOWFOCUSLOST:
             self._held.clear()
-            self._let_go()
+            self._panning = False
+            if self.tool.drag is not None:
+                self.tool.cancel()
         elif event.type == pygame.MOUSEWHEEL and self.panel.plate.collidepoint(self._pointer):
             self.panel.handle(event)
         elif event.type == pygame.MOUSEWHEEL:
@@ -164,16 +149,16 @@ class Editor:
         elif event.type == pygame.MOUSEBUTTONDOWN:
             self._press(event)
         elif event.type == pygame.MOUSEBUTTONUP:
-            self._release(event)
+            self._panning = False
+            if event.button == pygame.BUTTON_LEFT:
+                self.tool.release()
 
     def _press_key(self, event: pygame.Event) -> None:
-        if self._dragging and event.key == pygame.K_ESCAPE:
-            self._let_go()
-            return
         again = event.key in self._held
         self._held.add(event.key)
         action = action_of(event, self._actions.values())
-        if self._dragging or (again and not (action is not None and action.repeats)):
+        drags = self.tool.drag is not None and event.key != pygame.K_ESCAPE
+        if drags or (again and not (action is not None and action.repeats)):
             return
         if action is None or action.name not in ("help", "escape"):
             self.help.close()
@@ -186,9 +171,9 @@ class Editor:
         self.desk.say("")
         dx, dy = NUDGES.get(label_of(event).split()[-1], (0, 0))
         if action.name == "nudge":
-            self.desk.nudge(dx, dy, fine=bool(event.mod & pygame.KMOD_SHIFT))
+            self.desk.nudge(dx, dy)
         elif action.name == "rotate":
-            self._turn(-dx, fine=bool(event.mod & pygame.KMOD_SHIFT))
+            self._turn(-dx)
         elif action.act is not None:
             action.act()
 
@@ -205,7 +190,7 @@ class Editor:
         elif event.button == pygame.BUTTON_MIDDLE or pygame.K_SPACE in self._held:
             self._panning = True
         elif event.button == pygame.BUTTON_LEFT and self.layout.plot.collidepoint(event.pos):
-            self._dragging, self.panel.focused = True, False
+            self.panel.focused = False
             self.tool.press(self._world(event.pos))
         elif event.button == pygame.BUTTON_RIGHT and not self.tool.confirm():
             self.tool.cancel()
@@ -214,25 +199,13 @@ class Editor:
         self._pointer = event.pos
         if self._panning:
             self.viewpoint.pan(*event.rel)
-        elif self._dragging or self.layout.plot.collidepoint(event.pos):
+        elif self.tool.drag is not None or self.layout.plot.collidepoint(event.pos):
             self.tool.move(self._world(event.pos))
         else:
             self.tool.pointer = None
 
-    def _release(self, event: pygame.Event) -> None:
-        self._panning = False
-        if self._dragging and event.button == pygame.BUTTON_LEFT:
-            self._dragging = False
-            self.tool.release()
-
-    def _let_go(self) -> None:
-        """Cancel the drag."""
-        if self._dragging:
-            self.tool.cancel()
-        self._dragging = self._panning = False
-
     def _world(self, pixel: tuple[int, int]) -> Point:
-        ((x, y),) = self.desk.camera.to_world([pixel]).tolist()
+        ((x, y),) = self.viewpoint.camera.to_world([pixel]).tolist()
         return x, y
 
     # -- tools and changes ----------------------------------------------------------------------
@@ -251,37 +224,37 @@ class Editor:
         if self.layout.plot.collidepoint(self._pointer):
             self.tool.pointer = self._world(self._pointer)
 
-    def select_all(self) -> None:
-        """Select all items."""
+    def select(self, items: Iterable[Item]) -> None:
+        """Take up the arrow, and select items."""
         self.choose("select")
-        self.desk.select(self.desk.draft.items())
+        self.desk.select(items)
 
     def select_workspace(self) -> None:
         """Select the workspace; make one round all that there is if there is none."""
-        self.choose("select")
-        draft, desk, item = self.desk.draft, self.desk, Item("workspace")
+        draft, item = self.desk.draft, Item("workspace")
         if item not in draft.things:
-            desk.put(draft.changed({item: rectangle(*draft.sketch.bounds)}))
-        desk.select([item])
+            self.desk.put(draft.changed({item: rectangle(*draft.sketch.bounds)}))
+        self.select([item])
 
     def select_next(self, *, too: bool = False) -> None:
         """Select the item after that selected last, after the last the first; too: one more."""
         items, chosen = self.desk.draft.items(), self.desk.selection
         place = items.index(chosen[-1]) + 1 if chosen and chosen[-1] in items else 0
-        self.choose("select")
-        self.desk.select([*chosen * too, *items[place % max(1, len(items)) :][:1]])
+        self.select([*chosen * too, *items[place % max(1, len(items)) :][:1]])
 
     def ask_pose(self) -> None:
         """Ask where to put the selection, or a new item."""
         if self.tool_name == "select" and not self.desk.selection:
             raise InputError("select something first, or choose a tool that places items")
-        doc = "such as 1.5 2 90, or the name of a thing that is there"
-        self.dialogs.ask("x y [degrees] =", Answer("apply", self._put), text="", doc=doc)
+        doc, here = "such as 1.5 2 90, or the name of a thing that is there", self.tool.place
+        self.dialogs.ask("x y [degrees] =", Answer("apply", self._put), text=here, doc=doc)
 
     def _put(self, text: str) -> None:
         """Put the selection, or a new item, at typed numbers or where a thing of a name is."""
         draft = self.desk.draft
         named = {draft.name(item): draft.place(item) for item in draft.items()}
+        if text and text == self.tool.place:
+            return  # no digit changes
         if text.strip() in named:
             self.tool.put(*named[text.strip()], None)
             return
@@ -292,12 +265,12 @@ class Editor:
             raise InputError(f"{text!r}: expected x y in metres, x y degrees, or a name") from None
         self.tool.put(x, y, None if angle is None else radians(angle))
 
-    def _turn(self, way: int, *, fine: bool) -> None:
-        """Turn the selection: 1 is counter-clockwise, -1 clockwise; fine: by one degree."""
+    def _turn(self, way: int) -> None:
+        """Turn the selection: 1 is counter-clockwise, -1 clockwise; with Shift by one degree."""
         ring, desk = ring_of(self.desk), self.desk
         if ring is None:
             raise InputError("select something that has a direction first")
-        motion = Motion(radians(way * (1.0 if fine else NOTCH)), ring.center)
+        motion = Motion(radians(way * (1.0 if desk.shift else NOTCH)), ring.center)
         desk.put(desk.draft.moved(desk.selection, motion), tag="turn")
 
     def undo(self) -> None:
@@ -305,7 +278,23 @@ class Editor:
         if not self.tool.back():
             self.desk.go(-1)
 
+    def run(self) -> None:
+        """Save the file, and run it in a window in the place of this one until that is closed."""
+        path = self.dialogs.path
+        if path is None or self.desk.changed or self.dialogs.new:
+            self.dialogs.save(then=self.run)
+            return
+        try:
+            self._play(path, self.looks, self.viewpoint)
+        finally:
+            pygame.event.clear()
+            self._held.clear()
+
     # -- the view -------------------------------------------------------------------------------
+
+    def switch_names(self) -> None:
+        """Show names, or hide them."""
+        self.names = not self.names
 
     def zoom(self, notches: float) -> None:
         """Zoom about the pointer, or else about the middle, by notches of the wheel."""
@@ -313,7 +302,8 @@ class Editor:
         there = plot.collidepoint(self._pointer)
         self.viewpoint.zoom(notches, self._pointer if there else plot.center)
 
-    def _laid_out(self, size: tuple[int, int]) -> Layout:
+    def _arrange(self, size: tuple[int, int]) -> None:
+        """Lay out tools, drawing and panel on a surface of a size, pixels."""
         layout = self.looks.layout(size)
         room, columns = layout.plot.copy(), 1.0 if layout.plot.height >= TALL * layout.ui else 1.6
         left = round(min(columns * WIDTH * layout.ui, max(MAX_SHARE * size[0], NARROW)))
@@ -321,11 +311,7 @@ class Editor:
         free = room.width - ARENA * size[0] * size[1] / room.height
         room.width -= round(max(1, min(PANEL * layout.ui, MAX_PANEL * size[0], free)))
         room.width = max(1, room.width)
-        return replace(layout, plot=room)
-
-    def _arrange(self, size: tuple[int, int]) -> None:
-        layout = self._laid_out(size)
-        self.painter.ui = layout.ui
+        layout, self.painter.ui = replace(layout, plot=room), layout.ui
         if layout != self.layout:  # it does not follow the workspace while that is drawn
             self.viewpoint.arrange(layout, self.desk.draft.sketch)
 
@@ -335,11 +321,8 @@ class Editor:
             self.help.close()
         elif self.tool.cancel():
             pass
-        elif self.tool_name != "select":
-            self.choose("select")
-            self.desk.select()
-        elif self.desk.selection:
-            self.desk.select()
+        elif self.tool_name != "select" or self.desk.selection:
+            self.select(())
         elif self.live:
             self.dialogs.leave()
         else:
@@ -352,8 +335,10 @@ class Editor:
         self._arrange(surface.get_size())
         self._draw_plot(surface)
         plot, bar = self.layout.plot, self.layout.header
-        side = pygame.Rect(0, bar.bottom, plot.left, plot.height)
-        self._draw_tools(surface, side)
+        left = pygame.Rect(0, bar.bottom, plot.left, plot.height)
+        surface.fill(self.painter.theme.bar, left)
+        surface.fill(self.painter.theme.edge, (left.right - 1, left.top, 1, left.height))
+        self._toolbar.draw(surface, left, self.painter, self._pointer)
         right = pygame.Rect(plot.right, plot.top, surface.get_width() - plot.right, plot.height)
         self.panel.draw(surface, right, self.painter)
         self._draw_header(surface)
@@ -361,7 +346,7 @@ class Editor:
         if self.tool.remark:
             x, y = (each + round(16 * self.layout.ui) for each in self._pointer)
             draw_tooltip(surface, self.painter, self.tool.remark, topleft=(x, y))
-        if not (self._dragging or self.help.is_open):
+        if self.tool.drag is None and not self.help.is_open:
             self._toolbar.draw_tip(surface, self.painter, self._pointer)
         self.menu.draw(surface, surface.get_rect(), self.painter)
         self.help.draw(surface, self.layout, self.painter, self.groups.items())
@@ -372,7 +357,9 @@ class Editor:
         bar, fonts, pad = self.layout.header, painter.fonts, round(20 * ui)
         surface.fill(theme.bar, bar)
         surface.fill(theme.edge, (bar.left, bar.bottom - 1, bar.width, 1))
-        right, places, note = bar.right - pad, self._header.places, self.note
+        right, places = bar.right - pad, self._header.places
+        note = "not saved yet" if self.desk.changed else "new" * self.dialogs.new
+        note = "the run is paused" if self.live else note
         places.clear()
         for name in reversed([name for name in HEADER if name in self._actions]):
             action = self._actions[name]
@@ -388,50 +375,49 @@ class Editor:
             painter.panel(surface, place, fill, 7 * ui, theme.selected if hover else theme.key_edge)
             painter.write(surface, action.title, 15 * ui, color, bold=first, center=place.center)
             right = place.left - round(8 * ui)
-        room = right - 2 * pad - fonts.width(note, 14 * ui) - 12 * ui
-        title = fonts.shorten(self.title, 20 * ui, room, bold=True)
-        at = bar.left + pad, bar.centery
-        place = painter.write(surface, title, 20 * ui, theme.ink, bold=True, midleft=at)
-        if room > 0:
-            beside = (place.right + 12 * ui, bar.centery + 2 * ui)
-            painter.write(surface, note, 14 * ui, theme.muted, midleft=beside)
-
-    def _draw_tools(self, surface: pygame.Surface, side: pygame.Rect) -> None:
-        """Draw the buttons of the tools, and the step of the grid below them."""
-        painter, theme = self.painter, self.painter.theme
-        surface.fill(theme.bar, side)
-        surface.fill(theme.edge, (side.right - 1, side.top, 1, side.height))
-        bar = pygame.Rect(side.topleft, (side.width, side.height - round(STEP * painter.ui)))
-        self._toolbar.draw(surface, bar, painter, self._pointer)
-        place = self._toolbar.places["snap"]
-        step = f"{self.desk.step:g} m" if self.desk.snaps else "free"
-        below = (place.centerx, place.bottom + 2)
-        painter.write(surface, step, 0.3 * place.width, theme.text, midtop=below)
+        words = [Word(self.title, theme.ink, 20, bold=True), Word(note, theme.muted, 14)]
+        room = pygame.Rect(pad, bar.top, right - pad, bar.height)
+        fits = width_of(painter, words) < room.width
+        write_line(surface, room, painter, words if fits else words[:1])
 
     def _draw_plot(self, surface: pygame.Surface) -> None:
-        scene = Scene()
-        draft = self.desk.draft
-        draw_marks(draft, self.desk.selection, self.verdict.culprits, scene)
+        scene, draft = Scene(), self.desk.draft
+        for item in self.desk.selection:
+            draw_outline(draft, item, scene, PAPER, 4.5)
+            draw_outline(draft, item, scene, MARK, 2.2)
+        for item in self.desk.settled.verdict.culprits & draft.things.keys():
+            draw_outline(draft, item, scene, RED, 3.0, faded(RED, 0.3))
         self.tool.draw(scene)
-        plot, camera = self.layout.plot, self.desk.camera
-        frame = (draft.bare if self._plain else draft).frame()
         if self.names:
-            draw_remarks(draft, self.properties.idle(draft), scene)
-        layers, hurried = LAYERS.switched(names=self.names), self.viewpoint.hurried
+            self._draw_remarks(draft, scene)
+        layers = LAYERS.switched(names=self.names, addons=self._addons)
         try:
             self._stage.draw(
-                surface, frame, camera, layers, plot, marks=scene.shapes, hurried=hurried
-            )
-        except Mars2dError as error:  # raised by another add-on's drawing
-            if self._plain:
+                surface, draft.frame(), self.viewpoint.camera, layers, self.layout.plot,
+                marks=scene.shapes, hurried=self.viewpoint.hurried,
+            )  # fmt: skip
+        except Mars2dError as error:  # raised by an add-on's drawing
+            if not self._addons:
                 raise
-            self._plain = True
-            self.desk.say(f"Other add-ons are not drawn: {error}", warns=True)
+            self._addons = False
+            self.desk.say(f"Add-ons are not drawn: {error}", warns=True)
             self._draw_plot(surface)
+
+    def _draw_remarks(self, draft: Draft, scene: Scene) -> None:
+        """Write below each robot what it lacks to be moved, and whether it starts at random."""
+        idle = self.properties.idle(draft)
+        for i, robot in enumerate(draft.base.robots):
+            words = ["at random"] if draft.starts_at_random(Item("robot", i)) else []
+            if i in idle:
+                words.append("no law" if idle[i] == "a law" else f"lacks {idle[i]}")
+            (x, y), radius = robot.rigid.bound
+            text, below = ", ".join(words), (x, y - radius)
+            if text:
+                scene.text(below, text, color=IDLE, size=IDLE_SIZE, anchor="below", halo=PAPER)
 
     def _draw_foot(self, surface: pygame.Surface) -> None:
         """Draw what to do, or over the foot of the drawing a message of any length."""
-        desk, verdict, layout = self.desk, self.verdict, self.layout
+        desk, verdict, layout = self.desk, self.desk.settled.verdict, self.layout
         text = PANEL_HINT if self.panel.focused else self.tool.hint
         banner = Banner(desk.notice, error=desk.warns) if desk.notice else None
         if banner is None and verdict.text and desk.draft.base.robots:

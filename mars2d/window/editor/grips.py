@@ -15,8 +15,7 @@ from mars2d.bodies.props.base import Prop
 from mars2d.bodies.props.rectangles import Box
 from mars2d.core.plane import Point, edges_of
 from mars2d.window.editor.desk import Desk
-from mars2d.window.editor.draft import Draft
-from mars2d.window.editor.item import Item, Motion, angle_of, tidy
+from mars2d.window.editor.draft import Draft, Item, Motion, angle_of, tidy
 
 REACH = 9.0
 """The radius in which a handle is hit, points."""
@@ -34,51 +33,30 @@ MIN_SIDE = 0.01
 class Grip(NamedTuple):
     """Something to drag.
 
-    to: returns the draft with the pointer dragged to a point [m]. point: where its handle is,
-    metres. look: of the handle: "ring", "dot" or "square". corner: the index of the corner that it
-    moves, if it moves one.
+    to: returns the draft with the pointer dragged to a point [m]. point: where its handle is, or
+    where the drag begins, metres. look: "ring", "dot" or "square" of the handle, or "band" of the
+    rectangle that is drawn. corner: the index of the corner that it moves, if any. clicked: the
+    item that a mere click selects. at_once: whether a mere click has the effect, too. center: of
+    the ring, metres.
     """
 
     to: Callable[[Point], Draft]
-    point: Point = (0.0, 0.0)
+    point: Point
     look: str = ""
     corner: int | None = None
-
-
-class Ring(NamedTuple):
-    """The ring round the selection, metres; heading: the direction of its handle, radians."""
-
-    center: Point
-    radius: float
-    heading: float
-
-
-def ring_of(desk: Desk) -> Ring | None:
-    """Return the ring, None if the selection can't be turned."""
-    draft = desk.draft
-    items = [item for item in desk.selection if item.kind != "workspace"]
-    body = None if desk.only is None else draft.body(desk.only)
-    if len(items) < 2 and all(item.kind in ("waypoint", "beacon") for item in items):
-        return None
-    low, high, above = (desk.metres(points) for points in (MIN_RING, MAX_RING, 16.0))
-    if body is not None:
-        return Ring(body.pose[:2], min(max(body.bound[1] + above, low), high), body.pose[2])
-    xmin, ymin, xmax, ymax = shapely.total_bounds([draft.shape(item) for item in items])
-    points = [p for item in items for p in draft.corners(item) or [draft.place(item)]]
-    x, y = np.mean(points, axis=0).tolist()  # stays where it is while they turn about it
-    radius = hypot(xmax - xmin, ymax - ymin) / 2
-    return Ring((tidy(x), tidy(y)), min(max(radius + above, low), high), pi / 2)
+    clicked: Item | None = None
+    at_once: bool = False
+    center: Point = (0.0, 0.0)
 
 
 def grips(desk: Desk) -> list[Grip]:
     """Return what has a handle, the uppermost last."""
-    ring, item, found = ring_of(desk), desk.only, list[Grip]()
-    if ring is not None:
-        found.append(_turning(desk, ring))
+    ring, item = ring_of(desk), desk.only
+    found = [] if ring is None else [ring]
     if item is None:
         return found
-    corners = desk.draft.corners(item)
-    edges = [*(pairwise(corners) if item.kind == "wall" else edges_of(corners) if corners else ())]
+    corners, line = desk.draft.corners(item), desk.draft.is_line(item)
+    edges = [*pairwise(corners)] if line or not corners else edges_of(corners)
     dots = [
         _cornering(desk, item, k, ((a[0] + b[0]) / 2, (a[1] + b[1]) / 2), new=True)
         for k, (a, b) in enumerate(edges)
@@ -102,23 +80,45 @@ def moving(desk: Desk, grabbed: Item, start: Point) -> Grip:
         goal = desk.snapped((x + point[0] - start[0], y + point[1] - start[1]))
         return draft.moved(items, Motion(by=(goal[0] - x, goal[1] - y)))
 
-    return Grip(to)
+    return Grip(to, start, clicked=None if desk.shift else grabbed)
 
 
-def _turning(desk: Desk, ring: Ring) -> Grip:
-    """Turn the selection about the middle of its ring, with Shift in notches."""
-    draft, items, only, (x, y) = desk.draft, desk.selection, desk.only, ring.center
-    one = only is not None and draft.body(only) is not None
-    zero = 0.0 if one else ring.heading  # from where notches are counted
+def banding(desk: Desk, start: Point, kept: tuple[Item, ...]) -> Grip:
+    """Select the items within a rectangle, with those that are kept."""
+    draft = desk.draft
+
+    def to(point: Point) -> Draft:
+        desk.select([*kept, *desk.items_within(start, point)])
+        return draft
+
+    return Grip(to, start, "band")
+
+
+def ring_of(desk: Desk) -> Grip | None:
+    """Turn the selection about the middle of its ring, with Shift in notches; None if it can't."""
+    draft, only, selection = desk.draft, desk.only, desk.selection
+    items = [item for item in selection if item.kind != "workspace"]
+    points = [p for item in items for p in draft.corners(item) or [draft.place(item)]]
+    body = None if only is None else draft.body(only)
+    if body is None and len(points) < 2:
+        return None
+    if body is not None:
+        (x, y, heading), reach = body.pose, body.bound[1]
+    else:
+        xmin, ymin, xmax, ymax = shapely.total_bounds([draft.shapes[item] for item in items])
+        x, y = map(tidy, np.mean(points, axis=0).tolist())  # stays while they turn about it
+        reach, heading = hypot(xmax - xmin, ymax - ymin) / 2, pi / 2
+    low, high, above = (desk.metres(points) for points in (MIN_RING, MAX_RING, 16.0))
+    radius = min(max(reach + above, low), high)
 
     def to(point: Point) -> Draft:
         step = NOTCH if desk.shift else 1.0 if desk.snaps else 0.1
-        wanted = degrees(angle_of(ring.center, point) - zero)
-        angle = radians(round(wanted / step) * step) - (ring.heading - zero)
-        return draft.moved(items, Motion(angle, ring.center)) if abs(angle) > 1e-12 else draft
+        wanted = degrees(angle_of((x, y), point))
+        angle = radians(round(wanted / step) * step) - heading
+        return draft.moved(selection, Motion(angle, (x, y))) if abs(angle) > 1e-12 else draft
 
-    handle = x + ring.radius * cos(ring.heading), y + ring.radius * sin(ring.heading)
-    return Grip(to, handle, "ring")
+    handle = x + radius * cos(heading), y + radius * sin(heading)
+    return Grip(to, handle, "ring", center=(x, y))
 
 
 def _cornering(desk: Desk, item: Item, number: int, at: Point, *, new: bool = False) -> Grip:
@@ -129,7 +129,7 @@ def _cornering(desk: Desk, item: Item, number: int, at: Point, *, new: bool = Fa
     def to(point: Point) -> Draft:
         return draft.changed({item: (*before, desk.snapped(point), *after)})
 
-    return Grip(to, at, "dot" if new else "square", k)
+    return Grip(to, at, "dot" if new else "square", k, at_once=new)
 
 
 def _sides(desk: Desk, item: Item) -> list[Grip]:
@@ -141,7 +141,7 @@ def _sides(desk: Desk, item: Item) -> list[Grip]:
 
     def to(fixed: Point, point: Point) -> Draft:
         goal = desk.snapped(point)
-        return draft.with_members([item], lambda prop: spanned(prop, fixed, goal))
+        return draft.with_parts([item], lambda prop: spanned(prop, fixed, goal))
 
     return [Grip(partial(to, corners[k - 2]), corner, "square") for k, corner in enumerate(corners)]
 

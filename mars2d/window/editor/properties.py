@@ -15,20 +15,18 @@ from mars2d.core.materials import Coefficient
 from mars2d.core.scene import PALETTE
 from mars2d.core.usercode import name_of
 from mars2d.scenario import serialize
-from mars2d.scenario.code_file import law_in
-from mars2d.scenario.controllers import Controller, FollowRobot, FollowWaypoints, standing_still
-from mars2d.scenario.law_reference import Reference
+from mars2d.scenario.code_file import Reference, law_in
+from mars2d.scenario.controllers import FollowRobot, FollowWaypoints, standing_still
 from mars2d.scenario.options import parse_option
 from mars2d.scenario.registry import members
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.base import Sensor
-from mars2d.window.editor.draft import BODIES, Draft
-from mars2d.window.editor.item import Item
-from mars2d.window.editor.marks import described, minus
+from mars2d.window.editor.draft import BODIES, Draft, Item
 from mars2d.window.editor.tools import Tie
 from mars2d.window.widgets.menu import CHOSEN, Entry
 from mars2d.window.widgets.prompt import Answer
+from mars2d.window.widgets.rows import minus
 
 if TYPE_CHECKING:
     from mars2d.bodies.joints.base import Joint
@@ -41,16 +39,11 @@ SEVERAL = "several"
 """Shown where the selected bodies have different values."""
 ELSEWHERE = ("pose", "shape", "controller", "a", "b", "workspace")
 """The fields that are changed in other ways."""
-COLORS = dict(
-    zip(
-        PALETTE,
-        ("blue", "vermilion", "green", "pink", "orange", "sky blue", "violet", "dark grey"),
-        strict=True,
-    )
-)
+NAMES = ("blue", "vermilion", "green", "pink", "orange", "sky blue", "violet", "dark grey")
+COLORS = dict(zip(PALETTE, NAMES, strict=True))
 """The colours of the palette, in words."""
-AUTOMATIC = "automatic"
-"""What a value is called that follows from others, or that nobody has given."""
+AUTOMATIC, UNSET = "automatic", "not set"
+"""What a value is called that follows from others, and one that nobody has given."""
 NO_LAW = "none: it stands still"
 GIVEN = 0.5
 """The value of a sensor's number that has no default."""
@@ -110,7 +103,12 @@ class Properties:
     def __init__(self, editor: Editor) -> None:
         """Show them in the editor's panel."""
         self._editor, self._desk, self._dialogs = editor, editor.desk, editor.dialogs
-        editor.panel.open("properties", self.rows, (0, 0), stays=True)
+        self.focus(keys=False)
+
+    def focus(self, *, keys: bool = True) -> None:
+        """Show them from the first one on; keys: and give them the keys."""
+        self._editor.panel.open("properties", self.rows, (0, 0), stays=True)
+        self._editor.panel.focused = keys
 
     # -- subjects -------------------------------------------------------------------------------
 
@@ -125,14 +123,13 @@ class Properties:
 
         return Subject([alone], change)
 
-    def _members(self, items: Items) -> Subject:
+    def _parts(self, *items: Item) -> Subject:
         draft, put = self._desk.draft, self._desk.put
         parts = [draft.things[item] for item in items]
-        return Subject(parts, lambda f: put(draft.with_members(items, f)))
+        return Subject(parts, lambda f: put(draft.with_parts(items, f)))
 
-    def _sensors(self, robots: Items, key: str) -> Subject:
+    def _sensors(self, whole: Subject, key: str) -> Subject:
         """Return the sensors of robots with a name; a change to None removes them."""
-        whole = self._members(robots)
 
         def changed(f: Callable[[Sensor], Sensor | None], robot: Robot) -> Robot:
             found = (f(sensor) if sensor.key == key else sensor for sensor in robot.sensors)
@@ -140,10 +137,6 @@ class Properties:
 
         parts = [robot.sensor(key) for robot in whole.parts]
         return Subject(parts, lambda f: whole.change(partial(changed, f)))
-
-    def _joint(self, item: Item, joint: Joint) -> Subject:
-        draft, put = self._desk.draft, self._desk.put
-        return Subject([joint], lambda f: put(draft.changed({item: f(joint)})))
 
     # -- rows -----------------------------------------------------------------------------------
 
@@ -162,7 +155,7 @@ class Properties:
             ]  # fmt: skip
         rows = [Entry(counted(len(items), "thing"))]
         if len(items) == 1:  # without the size of a body, which has rows of its own
-            first, *others = described(draft, items[0])[:3]
+            first, *others = draft.described(items[0])[:3]
             rows = [Entry(first), *(Entry(line, tone="note") for line in others)]
         rows += [
             Entry(f"Corner {k}", partial(self._touch, k), value=minus(f"{x:.4g}, {y:.4g} m"))
@@ -173,9 +166,9 @@ class Properties:
             return rows
         if all(item.kind == "robot" for item in bodies):
             rows += self._rows_of_robots(bodies)
-        owners = self._members(bodies)
-        known = ["name"] if len(bodies) > 1 else []
-        known += ["diameter"] if any(getattr(p, "shape", None) for p in owners.parts) else []
+        owners = self._parts(*bodies)
+        known = ["name"] * (len(bodies) > 1)
+        known += ["diameter"] * any(getattr(part, "shape", None) for part in owners.parts)
         return [*rows, *self._rows_of_joints(bodies), *self._fields(owners, but=known)]
 
     def idle(self, draft: Draft) -> dict[int, str]:
@@ -195,7 +188,7 @@ class Properties:
         self._editor.take_up("tie", tool)
 
     def _rows_of_robots(self, robots: Items) -> list[Entry]:
-        whole, idle = self._members(robots), self.idle(self._desk.draft)
+        whole, idle = self._parts(*robots), self.idle(self._desk.draft)
         laws, drives = whole.part("controller"), whole.part("drive")
         without = "that of the team" if self._dialogs.control is not None else NO_LAW
         titles = [getattr(law, "title", law and name_of(law)) or without for law in laws.parts]
@@ -204,17 +197,15 @@ class Properties:
         if wants:
             rows.append(Entry(f"lacks {wants[0]}", level=1, tone="warning"))
         title = _alike([type(drive).__name__ for drive in drives.parts])
-        give = lambda kind: drives.change(partial(_driven, kind))  # noqa: E731
-        rows.append(
-            self._part("Drive", title, drives, _listed(members("bodies"), give, drives.kind))
-        )
+        kinds = _listed(members("bodies"), partial(_give_drive, drives), drives.kind)
+        rows.append(self._part("Drive", title, drives, kinds))
         kinds = _listed(members("sensors"), partial(_add_sensor, whole))
         rows.append(Entry("Sensors", partial(self._open, "Add a sensor", kinds), value="add one"))
         first, *others = whole.parts
         for sensor in first.sensors:
             if all(robot.sensor(sensor.key) for robot in others):
                 kind = type(sensor).__name__ * (sensor.name is not None)
-                rows.append(self._part(sensor.key, kind, self._sensors(robots, sensor.key)))
+                rows.append(self._part(sensor.key, kind, self._sensors(whole, sensor.key)))
         return rows
 
     def _rows_of_joints(self, bodies: Items) -> list[Entry]:
@@ -224,7 +215,7 @@ class Properties:
         for k, joint in enumerate(draft.base.joints if len(bodies) == 1 else ()):
             if name in (joint.a, joint.b):
                 kind, other = type(joint).__name__, joint.b if joint.a == name else joint.a
-                subject = self._joint(Item("joint", k), joint)
+                subject = self._parts(Item("joint", k))
                 rows.append(self._part(f"{kind} to {other or 'the floor'}", "", subject))
         return rows
 
@@ -273,8 +264,7 @@ class Properties:
             give(not value)
         elif choices:
             more = [Entry("another …", ask)] * (name == "color")
-            none = AUTOMATIC if _follows(field) else "none"
-            named = {none if each is None else _in_words(each): each for each in choices}
+            named = {UNSET if each is None else _in_words(each): each for each in choices}
             self._open(title, [*_listed(named, give, value), *more])
         else:
             ask()
@@ -289,7 +279,7 @@ class Properties:
         if mentions == "sensor":
             return [sensor.key for i in chosen for sensor in robots[i].sensors]
         words = schema_of(field).get("enum", [*COLORS] * (field.name == "color"))
-        return [None, *words] if words and field.default is None else words
+        return [None, *words] if words and field.metadata.get("optional") else words
 
     def _open(self, title: str, entries: Sequence[Entry]) -> None:
         """Open a menu below the row that was chosen."""
@@ -300,32 +290,32 @@ class Properties:
 
     def _laws(self, robots: Items) -> list[Entry]:
         """Return what can be chosen as the law of robots."""
-        owners = self._members(robots)
+        owners = self._parts(*robots)
         laws: list[Any] = [*members("controllers").values()]
-        now = owners.part("controller").kind
         without = "as the team's law says" if self._dialogs.control is not None else NO_LAW
-        stop = partial(owners.set, "controller", None)
+        choices = {law.title: law for law in laws} | {without: type(None)}
+        given = owners.part("controller").kind
         return [
-            *_listed({law.title: law for law in laws}, partial(self._give_law, robots), now),
+            *_listed(choices, partial(self._give_law, robots), given),
             Entry("from a file …", partial(self._ask_for_file, owners)),
-            Entry(without, stop, value=CHOSEN * (now is type(None))),
         ]
 
-    def _give_law(self, robots: Items, kind: type[Controller]) -> None:
-        """Give robots a ready-made law, with the sensors that it needs."""
+    def _give_law(self, robots: Items, kind: type[Any]) -> None:
+        """Give robots a ready-made law or none, and the sensors that it needs."""
+        wanted: Sequence[Sensor] = getattr(kind, "needs", ())
 
         def change(robot: Robot) -> Robot:
             carried = {sensor.key for sensor in robot.sensors}
-            added = [sensor for sensor in kind.needs if sensor.key not in carried]
+            added = [sensor for sensor in wanted if sensor.key not in carried]
             return robot.replace(controller=kind(), sensors=[*robot.sensors, *added])
 
-        self._members(robots).change(change)
-        needs = " and ".join(sensor.key for sensor in kind.needs)
+        self._parts(*robots).change(change)
+        needs = " and ".join(sensor.key for sensor in wanted)
         if kind is FollowWaypoints and self.idle(self._desk.draft).get(robots[0].number):
             self._editor.choose("waypoint")
             self._desk.say("click its waypoints, one after the other")
         elif kind is FollowRobot and len(self._desk.draft.base.robots) > len(robots):
-            self._ask(self._members(robots).part("controller"), "leader")
+            self._ask(self._parts(*robots).part("controller"), "leader")
         elif needs:
             self._desk.say(f"it goes by its sensor {needs}")
 
@@ -348,10 +338,12 @@ def _row(title: str, act: Callable[[], object], value: str, *more: str, level: i
     return Entry(title, act, value=value, more=", ".join(more), level=level)
 
 
-def _driven(kind: type[Description], drive: Description) -> Description:
-    """Return a drive of a kind with the fields that both have."""
-    known, given = kind.__dataclass_fields__, serialize.changed(drive)
-    return kind(**{k: v for k, v in given.items() if k in known})
+def _give_drive(drives: Subject, kind: type[Description]) -> None:
+    """Put drives of a kind in the place of others, with the fields that both have."""
+    known = kind.__dataclass_fields__
+    drives.change(
+        lambda drive: kind(**{k: v for k, v in serialize.changed(drive).items() if k in known})
+    )
 
 
 def _listed(
@@ -398,22 +390,18 @@ def _title(name: str) -> str:
 def _shown(part: object, field: Field) -> str:
     """Return a field's value in words; in place of None the value that follows from others."""
     value, unit = getattr(part, field.name), field.metadata.get("unit", "")
-    if value is not None or not _follows(field):
+    if value is not None:
         return _in_words(value, unit)
     wholes = (getattr(part, name, None) for name in ("inertia", "surface"))
     found = (getattr(whole, field.name, None) for whole in wholes)
     follows = next((each for each in found if each is not None), None)
-    return AUTOMATIC if follows is None else f"{AUTOMATIC} ({_in_words(follows, unit)})"
-
-
-def _follows(field: Field) -> bool:
-    """Return whether a field that is None follows from others."""
-    return "None: " in field.metadata.get("doc", "")
+    return UNSET if follows is None else f"{AUTOMATIC} ({_in_words(follows, unit)})"
 
 
 def _typed(field: Field, text: str) -> object:
     """Return the value of a field that was typed: as text, or as a number, a tuple, a word."""
-    if field.default is None and text.strip().lower() in ("", "none", AUTOMATIC):
+    words = ("", "none", UNSET, AUTOMATIC)
+    if field.metadata.get("optional") and text.strip().lower() in words:
         return None
     as_text = schema_of(field).get("type") == "string"
     return text if as_text else parse_option(f"{field.name}={text}")[1]

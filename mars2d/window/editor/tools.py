@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
-from math import degrees, radians
+from math import degrees, dist, radians
 from typing import Any
 
 from mars2d.addons.beacon import Beacon
@@ -16,20 +16,37 @@ from mars2d.core.errors import InputError
 from mars2d.core.plane import Outline, Point, bounds_of, rectangle
 from mars2d.core.scene import INK, Scene, faded
 from mars2d.geometry.shapes import Polygon
+from mars2d.output.raster.theme import LIGHT
 from mars2d.scenario.robot import Robot
 from mars2d.window.editor.desk import Desk
-from mars2d.window.editor.draft import Draft, seen_from
-from mars2d.window.editor.grips import NOTCH, Grip, grip_at, grips, moving, ring_of, sized
-from mars2d.window.editor.item import Item, Kind, Motion, angle_of, tidy
-from mars2d.window.editor.marks import MARK, PAPER, described, draw_outline, stretch
+from mars2d.window.editor.draft import Draft, Item, Kind, Motion, angle_of, seen_from, tidy
+from mars2d.window.editor.grips import NOTCH, Grip, banding, grip_at, grips, moving, sized
+from mars2d.window.widgets.rows import minus
 
 CLICK = 5.0
 """A press that moves by less than this is a click, points."""
 CLOSE = 10.0
 """A click this near to the first corner closes a polygon, points."""
+MARK, PAPER = LIGHT.selected, LIGHT.paper
 GHOST = faded(MARK, 0.7)
 SQUARE = 1.0
 """The side of an obstacle that is placed by a click, metres."""
+
+
+def draw_outline(
+    draft: Draft, item: Item, scene: Scene, stroke: str, width: float, fill: str | None = None
+) -> None:
+    """Draw the outlines of an item."""
+    for points, radius in draft.rims(item):
+        if len(points) == 1:
+            pixels = 0.0 if radius else 9.0
+            look = {"fill": fill} if radius else {}
+            scene.circle(points[0], radius, stroke=stroke, width=width, pixels=pixels, **look)
+        elif draft.is_line(item):
+            scene.line(points, stroke=stroke, width=width)
+        else:
+            inside = None if item.kind == "workspace" else fill
+            scene.polygon(points, stroke=stroke, fill=inside, width=width)
 
 
 class Tool:
@@ -55,6 +72,8 @@ class Tool:
     def begin(self, drag: Grip, point: Point) -> None:
         """Begin a drag."""
         self.drag, self._pressed, self.moved = drag, point, False
+        if drag.at_once:
+            self.desk.hold(drag.to, drag.point)
 
     def move(self, point: Point) -> None:
         """Move the mouse, with or without the button."""
@@ -66,10 +85,16 @@ class Tool:
 
     def release(self) -> None:
         """Release the button: keep the changes of the drag, and select what is new."""
-        drag, self.drag, self.moved = self.drag, None, False
+        clicked = None if self.drag is None or self.moved else self.drag.clicked
+        self.drag, self.moved = None, False
         self.desk.settle()
-        if drag is not None and drag.corner is not None and self.desk.only is not None:
-            self.desk.corner = drag.corner
+        if clicked is not None:
+            self.desk.select([clicked])
+
+    @property
+    def place(self) -> str:
+        """Where what it holds is, as it can be typed; "" if it holds nothing yet."""
+        return ""
 
     def put(self, x: float, y: float, heading: float | None) -> None:
         """Act like a click at a typed point; heading: radians, None if none was typed."""
@@ -95,20 +120,28 @@ class Tool:
     def remark(self) -> str:
         """What to show beside the pointer: the size, heading or place that the drag changes."""
         now, before = self.desk.draft, self.desk.settled
-        changed = now.new_since(before) if self.drag is not None and self.moved else []
+        changed = now.new_since(before) if self.moved else []
         if len(changed) != 1:
             return ""
-        known = described(before, changed[0]) if changed[0] in before.things else []
-        words = (line for line in reversed(described(now, changed[0])) if line not in known)
+        known = before.described(changed[0]) if changed[0] in before.things else []
+        words = (line for line in reversed(now.described(changed[0])) if line not in known)
         return next(words, "")
 
 
 class Select(Tool):
     """Selects, moves, turns and resizes items."""
 
-    _band: tuple[Point, Point] | None = None
-    _kept: tuple[Item, ...] = ()
-    _clicked: Item | None = None
+    @property
+    def place(self) -> str:
+        """The place of the selection: of its corner, or of a body with its heading in degrees."""
+        desk, draft = self.desk, self.desk.draft
+        if desk.corner is not None:
+            return _typed(desk.corners[desk.corner])
+        held = desk.selection[0]
+        body = draft.body(held) if held == desk.only else None
+        return _typed(
+            (*draft.place(held), *([] if body is None else [round(degrees(body.pose[2]), 6)]))
+        )
 
     def put(self, x: float, y: float, heading: float | None) -> None:
         """Put the selection at a point: its corner, a body's pose, or an outline's first corner."""
@@ -126,60 +159,37 @@ class Select(Tool):
 
     def press(self, point: Point) -> None:
         """Begin to drag a handle, an item, or a rectangle round items."""
-        desk, self._clicked = self.desk, None
+        desk = self.desk
         grip, item = grip_at(desk, point), desk.item_at(point)
+        if grip is None and item is not None and item.kind == "route" and not desk.shift:
+            desk.select([item])  # its waypoints are dragged at once
+            grip = grip_at(desk, point)
         if grip is not None:
-            self.begin(grip, point)
-            if grip.look == "dot":
-                self.moved = True  # a mere click on a dot adds the corner, too
-                desk.hold(grip.to, grip.point)
             desk.corner = grip.corner
+            self.begin(grip, point)
             return
         if item is None:
-            self._kept = desk.selection if desk.shift else ()
-            desk.select(self._kept)
-            self._band = point, point
+            kept = desk.selection if desk.shift else ()
+            desk.select(kept)
+            self.begin(banding(desk, point, kept), point)
             return
         if desk.shift:
             others = tuple(other for other in desk.selection if other != item)
             desk.select(others if item in desk.selection else (*others, item))
         elif item not in desk.selection:
             desk.select([item])
-        else:
-            self._clicked = item
-            desk.corner = None
         if item in desk.selection:
             self.begin(moving(desk, item, point), point)
 
-    def move(self, point: Point) -> None:
-        """Drag the handle or item, or select the items within the rectangle."""
-        super().move(point)
-        if self._band is not None:
-            self._band = self._band[0], point
-            self.desk.select([*self._kept, *self.desk.items_within(*self._band)])
-
-    def release(self) -> None:
-        """End the drag; a click on one of several selected items selects it alone."""
-        alone = self._clicked if not self.moved and not self.desk.shift else None
-        super().release()
-        if alone is not None and len(self.desk.selection) > 1:
-            self.desk.select([alone])
-        self._band = self._clicked = None
-
-    def cancel(self) -> bool:
-        """Cancel the drag."""
-        band, self._band = self._band, None
-        return super().cancel() or band is not None
-
     def draw(self, scene: Scene) -> None:
         """Draw the ring, the handles and the rectangle."""
-        desk, ring = self.desk, ring_of(self.desk)
-        if ring is not None:
-            scene.circle(ring.center, ring.radius, stroke=PAPER, width=3.5)
-            scene.circle(ring.center, ring.radius, stroke=MARK, width=1.5)
+        desk = self.desk
         for grip in grips(desk):
             x, y = grip.point
             if grip.look == "ring":
+                radius = dist(grip.center, grip.point)
+                scene.circle(grip.center, radius, stroke=PAPER, width=3.5)
+                scene.circle(grip.center, radius, stroke=MARK, width=1.5)
                 scene.circle((x, y), 0.0, fill=MARK, stroke=PAPER, width=2.0, pixels=7.0)
             elif grip.look == "dot":
                 scene.circle((x, y), 0.0, fill=PAPER, stroke=MARK, width=1.2, pixels=3.2)
@@ -188,9 +198,14 @@ class Select(Tool):
                 half = desk.metres(6.5 if chosen else 5.0)
                 square = rectangle(x - half, x + half, y - half, y + half)
                 scene.polygon(square, fill=MARK if chosen else PAPER, stroke=MARK, width=2.0)
-        if self._band is not None:
-            area = rectangle(*bounds_of(self._band))
+        if self.drag is not None and self.drag.look == "band" and self.pointer is not None:
+            area = rectangle(*bounds_of([self.drag.point, self.pointer]))
             scene.polygon(area, fill=faded(MARK, 0.08), stroke=MARK, width=1.0)
+
+
+def _typed(numbers: Iterable[float]) -> str:
+    """Return numbers as they are typed, to the last digit."""
+    return " ".join(repr(tidy(number)).removesuffix(".0") for number in numbers)
 
 
 # -- what is placed by a click, and shaped by a drag ----------------------------------------------
@@ -217,8 +232,7 @@ class Place(Tool):
         def to(end: Point) -> Draft:
             return draft.added(self._make(desk, start, end if self.moved else start))
 
-        self.begin(Grip(to), point)
-        desk.hold(to, point)
+        self.begin(Grip(to, point, at_once=True), point)
 
     def put(self, x: float, y: float, heading: float | None) -> None:
         """Place an item at a typed point."""
@@ -231,8 +245,7 @@ class Place(Tool):
     def _added(self, at: Point) -> tuple[Draft, Item]:
         """Return the draft with one more item at a point, and the item."""
         draft = self.desk.draft.added(self._make(self.desk, at, at))
-        (item,) = draft.things.keys() - self.desk.draft.things.keys()
-        return draft, item
+        return draft, draft.new_since(self.desk.draft)[-1]
 
     def draw(self, scene: Scene) -> None:
         """Draw the outline of what a click would place at the pointer."""
@@ -298,12 +311,12 @@ def waypoint(desk: Desk, start: Point, end: Point) -> Made:
     if not desk.draft.base.robots:
         raise InputError("waypoints belong to a robot: place one first (R)")
     place = start if start == end else desk.snapped(end)
-    return {Item("waypoint", _walker(desk)): place}
+    return {Item("route", _walker(desk)): (place,)}
 
 
 def _walker(desk: Desk) -> int:
     """Return the number of the robot whose route is drawn: the selected one, or else the first."""
-    return next((i.number for i in desk.selection if i.kind in ("robot", "waypoint")), 0)
+    return next((i.number for i in desk.selection if i.kind in ("robot", "route")), 0)
 
 
 # -- what is drawn corner by corner ---------------------------------------------------------------
@@ -366,7 +379,11 @@ class Chain(Tool):
     @property
     def remark(self) -> str:
         """The length and direction of the next edge."""
-        return stretch(*self.line[-2:]) if self.corners and self.pointer is not None else ""
+        if not self.corners or self.pointer is None:
+            return ""
+        a, b = self.line[-2:]
+        turn = round(degrees(angle_of(a, b)), 1) + 0.0
+        return minus(f"{dist(a, b):.4g} m   {turn:g}°") if a != b else ""
 
     def draw(self, scene: Scene) -> None:
         """Draw the corners so far, the edge to the pointer, and the area."""

@@ -11,10 +11,12 @@ from mars2d.record.impacts import card
 from mars2d.window.panels.trace import with_present
 from mars2d.window.screen.player import Player
 from mars2d.window.widgets.panel import LINE, Panel
-from mars2d.window.widgets.rows import Row, Word, height_of, minus
+from mars2d.window.widgets.rows import Row, Word, minus
 
-ENDS = (0.5, 0.71, 1.0)
-"""Where the numbers of a, of b and of both end, in parts of the width."""
+CARD = 12
+"""The lines of a card."""
+SIZE, NAME = 12.5, 72.0
+"""The height of the letters of a name, and its room, points."""
 SILENT = "No touch began in this control step. N: on to the next contact, Shift N: back."
 
 Table = list[tuple[str, str, str, str]]
@@ -26,7 +28,7 @@ class Impact(Panel):
     It opens with the keys that go from contact to contact.
     """
 
-    name, title, least, remembered = "impact", "Impact", 13 * LINE, False
+    name, title, least, remembered = "impact", "Impact", 0.0, False
 
     def __init__(self, painter: Painter, player: Player) -> None:
         """Start with nothing read."""
@@ -36,23 +38,24 @@ class Impact(Panel):
 
     def rows(self, frame: Frame, width: float) -> Sequence[Row]:
         """Return the lines of all cards, or that there is none."""
-        lines = [line for table in self._cards(frame) for line in table]
+        theme, lines = self.painter.theme, [line for each in self._cards(frame) for line in each]
         if not lines:
-            return [*self.wrapped(Word(SILENT, self.painter.theme.muted), width)]
-        return [self._line(*line) for line in lines]
+            return [*self.wrapped(Word(SILENT, theme.muted), width)]
+        table = []
+        for label, *numbers in lines:
+            cells = [[Word(minus(each), theme.text)] * bool(each) for each in numbers]
+            if not label:
+                names = [
+                    self.painter.fonts.shorten(each, SIZE, NAME, bold=True) for each in numbers
+                ]
+                cells = [[Word(each, theme.ink, SIZE, bold=True)] for each in names]
+            table.append([[Word(label, theme.muted)], *cells])
+        return self.table(table)
 
     def heights(self, frame: Frame, width: float) -> tuple[float, float]:
-        """Return the least and the wanted height; without a card it needs little."""
-        wanted = height_of(self.rows(frame, width))
-        return min(self.least, wanted), wanted
-
-    def _line(self, label: str, *numbers: str) -> Row:
-        """Return a line of a card; that without a label has the names."""
-        theme = self.painter.theme
-        ink = theme.text if label else theme.ink
-        words = [Word(minus(each), ink, bold=not label) for each in numbers]
-        first = 0 if any(numbers[:2]) else 2  # the numbers of both have the line to themselves
-        return self.table(words[first:], ENDS[first:], [Word(label, theme.muted)])
+        """Return the least height, that of one card where there is one, and the wanted height."""
+        _, wanted = super().heights(frame, width)
+        return min(CARD * LINE, wanted), wanted
 
     def _cards(self, frame: Frame) -> list[Table]:
         """Return the tables of the touches that began in the control step before a frame."""

@@ -6,9 +6,10 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-import pygame
+import numpy as np
 
 from mars2d.core.description import snake_case
+from mars2d.core.quantity import Quantity
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
 from mars2d.sensors.base import Sensor
@@ -17,26 +18,24 @@ from mars2d.window.panels.readout import (
     contacts_of,
     dynamics_of,
     force_of,
+    in_words,
     inbox,
     kind_of,
     rounded,
     state_of,
     touching,
 )
-from mars2d.window.panels.sensorplot import rows_of
 from mars2d.window.screen.picking import Selection
-from mars2d.window.widgets.panel import DOT, Panel
-from mars2d.window.widgets.rows import Row, Word, write_line
+from mars2d.window.widgets.panel import DOT, LINE, Panel
+from mars2d.window.widgets.plot import draw_bars, draw_colors
+from mars2d.window.widgets.rows import Row, Word
 
 GAP = 9.0
 """The gap between two sections, points."""
-HEAD, TITLE = 36.0, 21.0
-"""The heights of the name and of a section's title, points."""
-CLOSE = 5 * " "
-"""The room for the button that closes it."""
-LABEL = 0.22
-"""The room for the label of a row, in parts of the width."""
-
+TITLE = 21.0
+"""The height of a section's title, points."""
+BARS, MAX_LINES = 40.0, 6
+"""The height of bars, points, and how many numbers are written; more are drawn as bars."""
 DRAW_INTERVAL = 1 / 15
 """The shortest time between two drawings while only numbers change, seconds."""
 
@@ -49,8 +48,8 @@ class Inspector(Panel):
     parts from it, since it stands beside the arrows.
     """
 
-    name, title, headed, frames, remembered = "inspector", "Inspector", False, False, False
-    least = 176.0
+    name, title, frames, remembered = "inspector", "Inspector", False, False
+    least = 142.0
 
     def __init__(
         self,
@@ -88,55 +87,77 @@ class Inspector(Panel):
             self._of, self._frame, self._read_at = of, frame, self._clock()
         return self._sections
 
+    def head(self, frame: Frame) -> tuple[Sequence[Word], Sequence[Word]]:
+        """Return the body's name after a dot in its colour, and its kind."""
+        theme, body = self.painter.theme, self.selection.body or 0
+        dot = Word(DOT, theme.shade(frame.scenario.body_colors[body]), 15)
+        name = Word(str(frame.scenario.bodies[body].name), theme.ink, 15, bold=True)
+        return [dot, name], [Word(kind_of(frame, body), theme.muted)]
+
     # -- sections -----------------------------------------------------------------------------
 
     def _made(self, frame: Frame, body: int) -> Iterator[Row]:
         """Yield all sections."""
-        robots, theme = frame.scenario.robots, self.painter.theme
-        dot = Word(DOT, theme.shade(frame.scenario.body_colors[body]), 17)
-        name = Word(str(frame.scenario.bodies[body].name), theme.ink, 17, bold=True)
-        kind = Word(f"{kind_of(frame, body)}{CLOSE}", theme.muted)
-        yield self.line([dot, name], [kind], HEAD)
-        yield from map(self._numbers, state_of(frame, body))
+        theme = self.painter.theme
+        yield from self._numbers(state_of(frame, body))
         if frame.scenario.physics == "contact":
-            touched = " · ".join(contacts_of(frame, body)) or "none"
-            numbers = [*force_of(frame, body), *dynamics_of(frame, body)]
-            yield self._heading("contacts", touched)
-            yield from map(self._numbers, numbers)
+            yield from self._heading("contacts", " · ".join(contacts_of(frame, body)) or "none")
+            yield from self._numbers([*force_of(frame, body), *dynamics_of(frame, body)])
         for sensor, reading in readings_of(frame, body):
             kind_of_it, key = snake_case(type(sensor).__name__), sensor.key
-            yield self._heading(key, "" if kind_of_it == key else kind_of_it)
-            yield from rows_of(self, frame, body, sensor, reading)
-        if body < len(robots) and any(each.carries_messages for each in frame.scenario.addons):
+            yield from self._heading(key, "" if kind_of_it == key else kind_of_it)
+            yield from self.reading(frame, body, sensor, reading)
+        if body < len(frame.scenario.robots) and any(
+            each.carries_messages for each in frame.scenario.addons
+        ):
             heard = [
                 f"{sender}, {frame.time - sent:.1f} s ago: {rounded(text)}"
                 for sender, sent, text in inbox(frame, body)
             ]
             heard += [""] * (MAX_MESSAGES - len(heard))  # whatever has come
-            yield self._heading("inbox", "" if heard[0] else "nothing yet")
+            yield from self._heading("inbox", "" if heard[0] else "nothing yet")
             yield from (self.line([Word(each, theme.text)]) for each in heard)
 
-    def _numbers(self, row: tuple[str, Sequence[tuple[str, str]]]) -> Row:
-        """Return a label and up to three numbers in columns."""
-        (what, numbers), theme = row, self.painter.theme
-        pairs = ((Word(name, theme.muted), Word(each, theme.ink)) for name, each in numbers)
-        words = [word for pair in pairs for word in pair]
-        ends = [LABEL + (1 - LABEL) * k / len(numbers) for k in range(1, len(numbers) + 1)]
-        return self.table(words, ends, [Word(what, theme.muted)])
+    def _numbers(self, rows: Sequence[tuple[str, Sequence[tuple[str, str]]]]) -> list[Row]:
+        """Return rows of a label and up to three numbers in columns."""
+        muted, ink = self.painter.theme.muted, self.painter.theme.ink
+        return self.table(
+            [
+                [[Word(what, muted)], *([Word(name, muted), Word(n, ink)] for name, n in numbers)]
+                for what, numbers in rows
+            ]
+        )
 
-    def _heading(self, title: str, more: str) -> Row:
-        """Return the head of a section: a line above it, its title and more at the right."""
+    def _heading(self, title: str, more: str) -> list[Row]:
+        """Return the head of a section: a line above it, its title and more."""
+        theme = self.painter.theme
+        words = Word(title, theme.ink, bold=True), Word(more, theme.muted)
+        return [self.rule(GAP), self.line(words, high=TITLE)]
 
-        def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
-            ui, fonts, theme = self.painter.ui, self.painter.fonts, self.painter.theme
-            surface.fill(theme.edge, (rect.left, rect.top + round(GAP / 2 * ui), rect.width, 1))
-            line = pygame.Rect(rect.left, 0, rect.width, rect.height - round(GAP * ui))
-            line.bottom = rect.bottom
-            room = rect.width - fonts.width(title, 12.5 * ui, bold=True) - 12 * ui
-            at_end = Word(fonts.shorten(more, 12.5 * ui, room), theme.muted)
-            write_line(surface, line, self.painter, [Word(title, theme.ink, bold=True)], [at_end])
+    def reading(self, frame: Frame, robot: int, sensor: Sensor, reading: Any) -> list[Row]:
+        """Return the reading of a sensor of a robot: numbers, colours, or bars.
 
-        return Row(GAP + TITLE, draw)
+        Bars are those of now, from left to right as the robot sees where they are of beams.
+        """
+        now, painter, theme = np.asarray(reading), self.painter, self.painter.theme
+        quantities = sensor.quantities or (Quantity("value"),)
+        if quantities[0].kind == "color" and now.shape[-1:] == (3,):
+            strip = now.reshape(-1, 3)[::-1]
+            return [Row(LINE, lambda on, at: draw_colors(on, at, painter, strip))]
+        numbers = now.ravel().astype(float)
+        if len(numbers) > MAX_LINES:
+            beams = np.shape(getattr(sensor, "angles", ())) == now.shape
+            bars, color = numbers[::-1] if beams else numbers, frame.scenario.colors[robot]
+            return [Row(BARS, lambda on, at: draw_bars(on, at, painter, bars, color))]
+        named = len(quantities) == len(numbers)
+        each = [quantities[k if named else 0] for k in range(len(numbers))]
+        return [
+            self.line(
+                [Word(quantity.name if named else f"[{k}]", theme.text)],
+                [Word(in_words(value, quantity), theme.ink)],
+            )
+            for k, (value, quantity) in enumerate(zip(numbers.tolist(), each, strict=True))
+        ]
 
 
 def readings_of(frame: Frame, body: int) -> Iterator[tuple[Sensor, Any]]:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
-from mars2d.scenario.lesson import lesson_of
+from mars2d.scenario.code_file import lesson_of
 from mars2d.window.widgets.panel import Panel
 from mars2d.window.widgets.rows import Row, Word
 

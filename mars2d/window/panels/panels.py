@@ -90,7 +90,7 @@ class Panels(Dock):
         """Let keys go to the sliders of parameters, which are shown."""
         if not self.parameters.is_open or "parameters" in self._folded:
             self._open_or_not("parameters")
-        self.parameters.focus_on(None)
+        self.parameters.begin()
 
     def _turn(self, notches: int) -> None:
         """Scroll the panels that have more rows, as the wheel over them does."""

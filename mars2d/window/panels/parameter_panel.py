@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
-from math import floor, log10
+from math import floor, inf, log10
 from typing import Literal
 
 import pygame
@@ -21,12 +21,11 @@ from mars2d.window.screen.player import Player
 from mars2d.window.screen.source import RECORDING
 from mars2d.window.widgets.buttons import draw_icon
 from mars2d.window.widgets.panel import LINE, Panel
-from mars2d.window.widgets.rows import Row, Word, write_line
+from mars2d.window.widgets.rows import Pixel, Row, Word, write_line
 from mars2d.window.widgets.slider import Slider
 from mars2d.window.widgets.text_field import TextField
 from mars2d.world.timeline import Timeline
 
-Pixel = tuple[int, int]
 Line = tuple[str, Parameter | None]
 """A heading, or a name in words and its parameter."""
 Say = Literal["info", "error"]
@@ -110,36 +109,29 @@ class ParameterPanel(Panel):
         except InputError as error:  # of a Range of a law
             self._lines, self.said = [("No parameters", None)], (str(error), "error")
         if body is not None and body != last:  # let its sliders be seen
-            self.scroll.at = self._top(self._last_heading)
+            self.scroll.at, self.sought = inf, self._first
         if self.focus not in {each.name for _, each in self._lines if each is not None}:
             self.leave()
         return self._lines
 
     @property
-    def _last_heading(self) -> int:
-        return max(k for k, (_, each) in enumerate(self._lines) if each is None)
-
-    def _top(self, line: int) -> float:
-        """Return the height above a line, pixels."""
-        above = (HEADING if each is None else ROW for _, each in self._lines[:line])
-        return self.painter.ui * sum(above)
+    def _first(self) -> str:
+        """The name of the first parameter of what is selected, else of all; "" for none."""
+        names = ["" if each is None else each.name for _, each in self._look()]
+        last = max((k for k, name in enumerate(names) if not name), default=0)
+        return next(filter(None, [*names[last:], *names]), "")
 
     # -- drawing ------------------------------------------------------------------------------
 
     def rows(self, frame: Frame, width: float) -> Sequence[Row]:  # noqa: ARG002
         """Return the headings, and a row for each parameter."""
-        color = self.painter.theme.muted
+        color, self.resets = self.painter.theme.muted, {}
         return [
             self.line([Word(text, color, bold=True)], high=HEADING)
             if parameter is None
             else Row(ROW, partial(self._draw_row, text, parameter), parameter.name)
             for text, parameter in self._look()
         ]
-
-    def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:
-        """Draw the rows, and note where their buttons are."""
-        self.resets = {}
-        super().draw(surface, rect, frame)
 
     def foot(self, width: float) -> Sequence[Row]:
         """Return the effect of the last setting, or else words about the slider with the focus."""
@@ -157,16 +149,16 @@ class ParameterPanel(Panel):
         if name == self.focus:
             self.painter.panel(surface, place, theme.key, 5 * ui, theme.selected)
         value = self._value if held else parameter.value
+        changed = value != parameter.default
         above = pygame.Rect(place.left + pad, place.top, place.width - 2 * pad, round(NAME * ui))
         line = pygame.Rect(above.bottomleft, (above.width, place.bottom - above.bottom))
-        if value != parameter.default and not held:
+        if changed and not held:
             reset = pygame.Rect(0, 0, round(RESET * ui), round(RESET * ui))
             reset.midright = above.right + pad // 2, above.centery
             draw_icon(surface, CONTROLS["restart"].icon, theme.muted, reset.inflate(8, 8))
             self.resets[name] = reset
             above.width = reset.left - pad // 2 - above.left
-        number = Word(_number(parameter, value), theme.ink, SIZE, bold=value != parameter.default)
-        words = [number, *[Word(parameter.unit, theme.muted, 0.9 * SIZE)] * bool(parameter.unit)]
+        words = [Word(_number(parameter, value), theme.ink, SIZE, bold=changed)]
         if name == self.focus and self.typed.text:
             box = pygame.Rect(0, 0, round(TYPED_WIDTH * ui), round((NAME - 3) * ui))
             box.midright, words = above.midright, []
@@ -185,12 +177,11 @@ class ParameterPanel(Panel):
             return self.said
         focused = self.parameters().get(self.focus or "")
         if focused is not None:
-            unit = f" {focused.unit}" if focused.unit else ""
-            between = f"{focused.low:g} to {focused.high:g}{unit}"
+            between = f"{focused.low:g} to {focused.high:g} {focused.unit}".strip()
             return f"{focused.name}: {between}; {focused.default:.6g} in the file", "info"
         if self._selection.body is None:
-            return "select a robot or prop for its mass, friction and drive", "info"
-        return "drag a slider, or click it and type a number", "info"
+            return "select a robot or prop for its mass and more; Shift F2: to the sliders", "info"
+        return "drag a slider, or click it and type a number; Shift F2: to the sliders", "info"
 
     # -- the mouse ----------------------------------------------------------------------------
 
@@ -198,36 +189,26 @@ class ParameterPanel(Panel):
         """Handle an event of the mouse within the panel; return whether a drag has begun."""
         super().handle(event)
         if event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
-            return self._press(event.pos)
+            self._press(event.pos)
         held = self.parameters().get(self._held or "")
         if held is None:  # or the file was saved, and has it no more
             self._held = None
-        elif event.type == pygame.MOUSEMOTION:
-            self._drag(held, event.pos[0])
+        elif event.type in (pygame.MOUSEBUTTONDOWN, pygame.MOUSEMOTION):
+            self._value = held.nearest(self._sliders[held.name].value_at(event.pos[0]))
         elif event.type == pygame.MOUSEBUTTONUP:
             self._held = None
             if held.value != self._value or self._anew:
                 self._set(held.name, self._value)
-        return False
-
-    def _press(self, pixel: Pixel) -> bool:
-        """Press a button or a slider; return whether a slider is held."""
-        name = next((n for n, place in self.places.items() if place.collidepoint(pixel)), None)
-        self.leave()
-        self.focus, self.said = name, ("", "info")
-        if name is None:
-            return False
-        parameter = self.parameters()[name]
-        if name in self.resets and self.resets[name].collidepoint(pixel):
-            self._set(name, parameter.default)
-        elif self._sliders[name].hit(pixel):
-            self._held, self._anew, self._next = name, "", self._clock()
-            self._drag(parameter, pixel[0])
         return self._held is not None
 
-    def _drag(self, parameter: Parameter, x: float) -> None:
-        """Move the handle that is held to a pixel from the left."""
-        self._value = parameter.nearest(self._sliders[parameter.name].value_at(x))
+    def _press(self, pixel: Pixel) -> None:
+        """Press a button or a slider, which is held then."""
+        name = next((n for n, place in self.places.items() if place.collidepoint(pixel)), None)
+        self.focus_on(name)
+        if name in self.resets and self.resets[name].collidepoint(pixel):
+            self._set(name, self.parameters()[name].default)
+        elif name is not None and self._sliders[name].hit(pixel):
+            self._held, self._anew, self._next = name, "", self._clock()
 
     def tick(self) -> None:
         """While time passes, set the dragged value as often as that is quick; call it often."""
@@ -240,7 +221,6 @@ class ParameterPanel(Panel):
     def _set(self, name: str, value: float, *, restart: bool = True) -> None:
         """Set a parameter, and report the effect."""
         parameter = self.parameters()[name]
-        unit = f" {parameter.unit}" if parameter.unit else ""
         try:
             reason = self._set_to(name, value, restart)
         except Mars2dError as error:  # of the value, or of a law that is asked again
@@ -249,7 +229,7 @@ class ParameterPanel(Panel):
         if reason and not restart:
             self._anew = reason
             return
-        what = f"{name.removeprefix(PREFIX)} = {_number(parameter, value)}{unit}"
+        what = f"{name.removeprefix(PREFIX)} = {_number(parameter, value)}"
         effect = f"started again: {reason}" if reason else "in effect from now on"
         self.said = f"{what}: {effect}", "info"
 
@@ -278,37 +258,33 @@ class ParameterPanel(Panel):
             number = names.index(parameter.name) + (1 if name == "down" else -1)
             self.focus_on(names[number % len(names)])
         elif name in ("return", "enter") and self.typed.text:
-            self._take(parameter)
-        elif name == "escape" and self.typed.text:
+            self._take(parameter, self.typed.text)
             self.typed.clear()
         elif name == "escape":
-            self.leave()
+            self.focus = self.focus if self.typed.text else None
+            self.typed.clear()
         else:
             return False
         return True
 
     def focus_on(self, name: str | None) -> None:
-        """Let a slider have the focus, and be seen; None: the first, of what is selected."""
+        """Let a slider have the focus, and be seen; None: none."""
         self.leave()
-        names = ["" if each is None else each.name for _, each in self._look()]
-        if name is None and any(names):
-            name = next(filter(None, [*names[self._last_heading :], *names]))
-        self.focus, self.said = name, ("", "info")
-        if name in names:
-            top = self._top(names.index(name))
-            self.scroll.bring(top, top + ROW * self.painter.ui)
+        self.focus, self.sought, self.said = name, name or "", ("", "info")
 
-    def _take(self, parameter: Parameter) -> None:
+    def begin(self) -> None:
+        """Let the first slider of what is selected have the focus."""
+        self.focus_on(self._first or None)
+
+    def _take(self, parameter: Parameter, typed: str) -> None:
         """Set the number that was typed."""
-        typed = self.typed.text
-        self.typed.clear()
         try:
             value = int(typed) if parameter.whole else float(typed)
         except ValueError:
             kind = "a whole number" if parameter.whole else "a number"
             self.said = f"{typed}: expected {kind}", "error"
-            return
-        self._set(parameter.name, value)
+        else:
+            self._set(parameter.name, value)
 
 
 def _lines(experiment: Experiment, body: int | None) -> Iterator[Line]:
@@ -333,6 +309,5 @@ def _lines(experiment: Experiment, body: int | None) -> Iterator[Line]:
 
 def _number(parameter: Parameter, value: float) -> str:
     """Return a value with the decimals of its slider's steps, unless it lies between two."""
-    decimals = max(0, -floor(log10(parameter.step)))
-    short = f"{value:.{decimals}f}"
-    return short if float(short) == value else f"{value:.6g}"
+    short = f"{value:.{max(0, -floor(log10(parameter.step)))}f}"
+    return f"{short if float(short) == value else f'{value:.6g}'} {parameter.unit}".strip()

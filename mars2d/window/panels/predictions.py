@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
 
 from mars2d.core.errors import LawError
 from mars2d.output.raster.painter import Painter
@@ -22,24 +21,11 @@ OFTEN = 0.2
 SHARE = 0.04
 """The largest share of the time that `checks` may take."""
 
-TITLES, ENDS = ("predicted", "measured", "tolerance"), (0.28, 0.58, 1.0)
-"""The columns, and where they end, in parts of the width."""
+TITLES = "predicted", "measured", "tolerance"
 GAP = 6.0
 """The height of the gap below a prediction, points."""
 MAX_WORDS = 6
 """The most lines of words about values that could not be read."""
-
-
-class Reading(NamedTuple):
-    """What `checks` made of a run so far.
-
-    time: of the run, seconds. finished: whether it had come to its end. error: what ended `checks`.
-    """
-
-    time: float
-    finished: bool
-    predictions: tuple[Prediction, ...]
-    error: LawError | None
 
 
 class Predictions(Panel):
@@ -48,6 +34,9 @@ class Predictions(Panel):
     `checks` is written for a run that has ended. While one goes on, it is asked a few times a
     second, as far as it costs little; what it can't find yet, or has found too little of, is "not
     yet". Its errors are shown here, and never end the run.
+
+    found, error: what it made of the run so far, and what ended it. finished: whether the run had
+    come to its end then.
     """
 
     name, title, least = "predictions", "Predictions", 110.0
@@ -60,10 +49,12 @@ class Predictions(Panel):
     ) -> None:
         """Start with nothing read."""
         super().__init__(painter)
-        self.reading = Reading(0.0, False, (), None)
+        self.found: tuple[Prediction, ...] = ()
+        self.error: LawError | None = None
+        self.finished = False
         self._timeline, self._clock = timeline, clock
         self._read: tuple[World, int] | None = None
-        self._next = -math.inf
+        self._at, self._next = 0.0, -math.inf
 
     @property
     def lacks(self) -> str:  # type: ignore[override]
@@ -82,70 +73,73 @@ class Predictions(Panel):
             return False
         self._read = of
         record = world.record
-        found, error = timeline.experiment.predictions_so_far(record)
+        self.found, self.error = timeline.experiment.predictions_so_far(record)
+        self.finished, self._at = record.finished, float(record.time[-1]) if len(record) else 0.0
         self._next = now + max(OFTEN, (self._clock() - now) / SHARE)
-        at = float(record.time[-1]) if len(record) else 0.0
-        self.reading = Reading(at, record.finished, found, error)
         return True
 
     # -- the panel --------------------------------------------------------------------------------
 
     def rows(self, frame: Frame, width: float) -> Sequence[Row]:  # noqa: ARG002
         """Return the titles of the columns, and two rows for each prediction, or why none."""
-        found, muted = self.reading.predictions, self.painter.theme.muted
-        if not found:
+        muted = self.painter.theme.muted
+        if not self.found:
             return self._said(width)
-        titles = self.table([Word(each, muted) for each in TITLES], ENDS)
-        return [titles, *(row for each in found for row in self._rows_of(each))]
+        titles = [[], *([Word(each, muted)] for each in TITLES)]
+        head, *numbers = self.table([titles, *map(self._numbers, self.found)])
+        listed = [head]
+        for each, row in zip(self.found, numbers, strict=True):
+            why = self.line([Word(each.reason, muted)])
+            listed += [self._head(each), why if each.reason else row, self.gap(GAP)]
+        return listed
 
     def foot(self, width: float) -> Sequence[Row]:
         """Return lines about the run, and about values that could not be read."""
-        return self._said(width) if self.reading.predictions else ()
+        return self._said(width) if self.found else ()
 
     def _said(self, width: float) -> list[Row]:
-        theme, reading = self.painter.theme, self.reading
-        failed = reading.error is not None and reading.finished
+        theme, failed = self.painter.theme, self.error is not None and self.finished
         color = theme.error.ink if failed else theme.muted
         return [*self.wrapped(Word(self._words(), color), width, MAX_WORDS)]
 
-    def _rows_of(self, p: Prediction) -> list[Row]:
-        """Return a prediction: its name and how it stands, and below that its numbers."""
+    def _head(self, prediction: Prediction) -> Row:
+        """Return a prediction's name and how it stands."""
+        said, color = self._verdict(prediction, self.painter.theme)
+        name = [Word(DOT, color), Word(prediction.name, self.painter.theme.ink)]
+        return self.line(name, [Word(said, color, bold=True)])
+
+    def _numbers(self, prediction: Prediction) -> list[list[Word]]:
+        """Return the cells of a line: what is predicted and measured, and the tolerance."""
         theme = self.painter.theme
-        said, color = self._verdict(p, theme)
-        name = [Word(DOT, color), Word(p.name, theme.ink)]
-        head = self.line(name, [Word(said, color, bold=True)])
-        if p.reason:
-            return [head, self.line([Word(p.reason, theme.muted)]), self.gap(GAP)]
-        predicted, measured, tolerance = cells(p)[-3:]
-        measured = measured if math.isfinite(p.measured) else "-"
-        ink = color if self.reading.finished else theme.text
-        words = [
-            Word(predicted, theme.text), Word(measured, ink, bold=True),
-            Word(f"{tolerance} {p.unit}".strip(), theme.text),
-        ]  # fmt: skip
-        return [head, self.table(words, ENDS), self.gap(GAP)]
+        predicted, measured, tolerance = cells(prediction)[-3:]
+        measured = measured if math.isfinite(prediction.measured) else "-"
+        ink = self._verdict(prediction, theme)[1] if self.finished else theme.text
+        return [
+            [],
+            [Word(predicted, theme.text)],
+            [Word(measured, ink, bold=True)],
+            [Word(f"{tolerance} {prediction.unit}".strip(), theme.text)],
+        ]
 
     def _verdict(self, prediction: Prediction, theme: Theme) -> tuple[str, str]:
         """Return how a prediction stands, in words, and their colour."""
         if prediction.reason:
             return prediction.verdict, theme.muted
         if prediction.ok:
-            return ("ok" if self.reading.finished else "ok so far"), theme.running.ink
-        if self.reading.finished:
+            return ("ok" if self.finished else "ok so far"), theme.running.ink
+        if self.finished:
             return "NOT OK", theme.error.ink
         return "not yet", theme.waiting.ink
 
     def _words(self) -> str:
         """Return what is to say about the run, and about values that could not be read."""
-        timeline, reading = self._timeline, self.reading
+        timeline = self._timeline
         if timeline is not None and timeline.world.operator.log:
-            first = timeline.world.recorder.options
-            new = [f"{k} = {v:.6g}" for k, v in timeline.options.items() if first.get(k) != v]
+            first, now = timeline.world.recorder.options, timeline.experiment.options
+            new = [f"{k} = {v:.6g}" for k, v in now.items() if first.get(k) != v]
             again = f"R: again with {', '.join(new)}, and predict." if new else "R: again."
             return f"A hand has changed this run; the predictions are for one without. {again}"
-        if not reading.predictions and reading.error is None:
-            return "Nothing is measured yet."
-        if reading.error is not None:
-            return f"{'Failed' if reading.finished else 'Not yet'}: {reading.error}"
-        when = "at the end" if reading.finished else f"at {reading.time:.4g} s"
-        return f"{summary(reading.predictions)} {when}"
+        if self.error is not None:
+            return f"{'Failed' if self.finished else 'Not yet'}: {self.error}"
+        when = "at the end" if self.finished else f"at {self._at:.4g} s"
+        return f"{summary(self.found)} {when}" if self.found else "Nothing is measured yet."

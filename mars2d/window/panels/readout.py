@@ -13,6 +13,7 @@ from mars2d.bodies.drives.base import Drive
 from mars2d.core.description import snake_case
 from mars2d.core.materials import GRAVITY
 from mars2d.core.plane import wrap
+from mars2d.core.quantity import Quantity
 from mars2d.output.layers.forces import SLIPPING, in_newtons
 from mars2d.record.contact import net_forces, pair_forces
 from mars2d.record.frame import Frame
@@ -127,6 +128,16 @@ def _degrees(angle: float) -> str:
 def in_both_units(angle: float) -> str:
     """Return a heading in degrees, and in radians as laws have it: ``90° (1.571 rad)``."""
     return minus(f"{np.degrees(angle):z.4g}° ({angle:z.4g} rad)")
+
+
+def in_words(value: float, quantity: Quantity) -> str:
+    """Return what a sensor reads in words, with its unit; angles in degrees."""
+    if not np.isfinite(value):
+        return "nothing" if np.isnan(value) or value > 0 else str(value)
+    if quantity.kind == "angle":
+        return minus(f"{round(degrees(value)):d}°")
+    text = f"{value:.3f}" if abs(value) < 10 else f"{value:.4g}"
+    return minus(f"{text} {quantity.unit.replace('^2', '²')}".strip())
 
 
 def touching(frame: Frame, body: int) -> frozenset[int]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from math import ceil
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -12,31 +13,21 @@ import numpy as np
 import pygame
 from numpy.typing import NDArray
 
-from mars2d.core.errors import InputError
+from mars2d.core.errors import InputError, Mars2dError
 from mars2d.core.scene import PALETTE
 from mars2d.core.usercode import name_of
 from mars2d.output.raster.painter import Painter
 from mars2d.output.signals import Signal, without_nothing
 from mars2d.record.frame import Frame
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.panels.trace import Trace, What, span_of
+from mars2d.window.panels.trace import What, read, span_of
 from mars2d.window.screen.picking import Selection
 from mars2d.window.screen.player import Player
 from mars2d.window.screen.saving import Saver
 from mars2d.window.screen.viewpoint import wheel_notches
 from mars2d.window.widgets.panel import Panel
-from mars2d.window.widgets.plot import (
-    Limits,
-    as_number,
-    draw_axes,
-    draw_curve,
-    draw_quartiles,
-    limits_of,
-    polylines,
-)
-from mars2d.window.widgets.rows import GAP as WORD_GAP
-from mars2d.window.widgets.rows import Word, write_line
-from mars2d.world.record import Record
+from mars2d.window.widgets.plot import Axes, as_number, draw_curve
+from mars2d.window.widgets.rows import Word, draw_rows, height_of, width_of, write_line
 from mars2d.world.timeline import Timeline
 
 Float = NDArray[np.float64]
@@ -46,8 +37,8 @@ TITLE, LEFT, FOOT, GAP = 19.0, 52.0, 17.0, 7.0
 the next plot, points."""
 LEAST, WANTED = 56.0, 124.0
 """The least and the wanted height of a plot with its title, points."""
-HIGH = 86.0
-"""The height from which on a plot has a line for the names of its curves, points."""
+HIGH = 56.0
+"""The height that a plot has at least beside lines for the names of its curves, points."""
 LINE = 16.0
 """The height of a line of text, points."""
 NAMED = 6
@@ -63,19 +54,18 @@ ZOOM, SHORTEST = 1.25, 10
 
 
 class _Plot(NamedTuple):
-    """A plot that was drawn: where its curves lie in the panel, and what the axes mean there.
+    """A plot that was drawn.
 
-    colors, names: of the curves. single: those that are drawn each. below: whether the names have a
-    line of their own below the title.
+    axes: in the panel's own image. colors, names: of the curves. single: those that are drawn each.
+    below: how many lines the names have below the title.
     """
 
     signal: Signal
-    area: pygame.Rect
-    limits: Limits
+    axes: Axes
     colors: Sequence[str]
     names: Sequence[str]
     single: Sequence[int]
-    below: bool
+    below: int
 
 
 class Scopes(Panel):
@@ -84,7 +74,8 @@ class Scopes(Panel):
     player: of the run, which a click in a plot takes to a row. selection: the body whose curve lies
     above a summary of many. clock: seconds.
 
-    traces: what is plotted, one below the other. span: the time shown, seconds; None: all.
+    traces: what is plotted, one below the other, and the bodies of each. span: the time that is
+    shown, seconds; None: all.
     """
 
     name, title, remembered = "scopes", "Scopes", False
@@ -100,16 +91,15 @@ class Scopes(Panel):
         super().__init__(painter)
         self._player, self._clock = player, clock
         self._selection = selection
-        self.traces: list[Trace] = []
+        self.traces: dict[What, tuple[int, ...]] = {}
         self.span: float | None = None
         self._plots: list[_Plot] = []
         self._image: pygame.Surface | None = None
         self._place = pygame.Rect(0, 0, 0, 0)
         self._of: tuple[object, ...] = ()
         self._frame: Frame | None = None
-        self._drawn_at, self._cost = 0.0, 0.0
-        self._end = 0.0  # of the time that is shown
-        self._held: _Plot | None = None
+        self._next = 0.0  # when it is drawn again while time passes
+        self._held: Axes | None = None
         robots = tuple(range(len(player.frame.scenario.robots)))
         for what in self._named:
             self.switch(what, robots if isinstance(what, str) else ())
@@ -130,45 +120,34 @@ class Scopes(Panel):
     def open(self) -> None:
         """Open it; where nothing is plotted, the robots' speeds are."""
         super().open()
-        if not self.traces:
-            robots = len(self._player.source.recorded.scenario.robots)
-            self.traces.append(Trace("speed", tuple(range(robots))))
+        robots = len(self._player.source.recorded.scenario.robots)
+        self.traces = self.traces or {"speed": tuple(range(robots))}
 
     def shows(self, what: What, bodies: tuple[int, ...]) -> bool:
         """Return whether something is plotted for all of some bodies."""
-        trace = self._trace(what)
-        return self.is_open and trace is not None and set(bodies) <= set(trace.bodies)
+        return self.is_open and what in self.traces and {*bodies} <= {*self.traces[what]}
 
     def switch(self, what: What, bodies: tuple[int, ...]) -> None:
         """Plot something for some bodies, beside others for which it is plotted, or no longer."""
-        if not self.is_open:
-            self.traces = []
-        trace, shown = self._trace(what), self.shows(what, bodies)
-        if trace is None:
-            self.traces.append(Trace(what, bodies))
-        elif shown:
-            trace.bodies = tuple(body for body in trace.bodies if body not in bodies)
-            if not trace.bodies or not bodies:
-                self.traces.remove(trace)
-        else:
-            trace.bodies = (*trace.bodies, *(b for b in bodies if b not in trace.bodies))
+        shown, now = self.shows(what, bodies), self.traces.get(what, ()) if self.is_open else ()
+        others = tuple(body for body in now if body not in bodies)
+        kept = self.traces if self.is_open else {}
+        self.traces = {**kept, what: others if shown else (*others, *bodies)}
+        if shown and not others:
+            del self.traces[what]
         self.wanted = len(self.traces)
         self._image = None
 
     def meet(self, scenario: Scenario) -> None:
         """Take the functions of a file that was read again; forget bodies that are not there."""
         named, count = {name_of(each): each for each in self.functions}, len(scenario.bodies)
-        for trace in [*self.traces]:
-            if not isinstance(trace.what, str):
-                trace.what = named.get(trace.name, trace.what)
-            bodies = tuple(body for body in trace.bodies if body < count)
-            if trace.bodies and not bodies:
-                self.traces.remove(trace)
-            trace.bodies = bodies
+        traces, self.traces = self.traces, {}
+        for what, bodies in traces.items():
+            left = tuple(body for body in bodies if body < count)
+            if left or not bodies:
+                again = what if isinstance(what, str) else named.get(name_of(what), what)
+                self.traces[again] = left
         self.wanted = self.is_open and len(self.traces)
-
-    def _trace(self, what: What) -> Trace | None:
-        return next((trace for trace in self.traces if trace.what == what), None)
 
     # -- saving -------------------------------------------------------------------------------
 
@@ -179,20 +158,28 @@ class Scopes(Panel):
             from mars2d.output.figures.figure import save_drawing
             from mars2d.output.figures.signals import draw_signals
 
+            record, (found, _) = self._player.source.recorded, self._signals(frame)
+            if not found or not len(record):
+                raise InputError("nothing to save: no step was run yet, or nothing is plotted")
+            found = [replace(each, values=each.values[: len(record)]) for each in found]
+
             def draw() -> Any:
-                return draw_signals(*self._signals(frame))[0].figure
+                return draw_signals(record, found)[0].figure
 
             save_drawing(draw, path)
 
         saver.save("figure", ".png", write)
 
-    def _signals(self, frame: Frame) -> tuple[Record, list[Signal]]:
-        """Return the record, and all signals in each of its rows."""
-        record = self._player.source.recorded
-        found = [signal for trace in self.traces for signal in trace.read(record, frame)]
-        if not found or not len(record):
-            raise InputError("there is nothing to save: no step was run yet, or nothing is plotted")
-        return record, [replace(each, values=each.values[: len(record)]) for each in found]
+    def _signals(self, frame: Frame) -> tuple[list[Signal], list[str]]:
+        """Return the signals of all that is plotted, and why some of it has none."""
+        record, found, errors = self._player.source.recorded, list[Signal](), []
+        for what, bodies in self.traces.items():
+            try:
+                found += map(without_nothing, read(what, bodies, record, frame))
+            except Mars2dError as error:
+                name = what if isinstance(what, str) else name_of(what)
+                errors.append(f"{name}: {str(error).removeprefix('columns: ')}")
+        return found, errors
 
     # -- drawing ------------------------------------------------------------------------------
 
@@ -203,17 +190,16 @@ class Scopes(Panel):
 
     def draw(self, surface: pygame.Surface, rect: pygame.Rect, frame: Frame) -> None:
         """Draw the plots, and over them the cursor."""
-        ui, theme = self.painter.ui, self.painter.theme
-        of = rect.size, ui, theme, self.span, len(self.traces), frame.scenario, self._selection.body
-        interval = max(INTERVAL, self._cost / SHARE)
-        late = frame is not self._frame and self._clock() - self._drawn_at >= interval
+        theme, body = self.painter.theme, self._selection.body
+        of = rect.size, self.painter.ui, theme, self.span, len(self.traces), frame.scenario, body
+        begin = self._clock()
+        late = frame is not self._frame and begin >= self._next
         if self._image is None or of != self._of or late:
-            begin = self._clock()
             self._image = pygame.Surface(rect.size, 0, 32)
             self._image.fill(theme.plate)
             self._draw_plots(self._image, frame)
-            self._of, self._frame, self._drawn_at = of, frame, self._clock()
-            self._cost = self._drawn_at - begin
+            self._of, self._frame, now = of, frame, self._clock()
+            self._next = now + max(INTERVAL, (now - begin) / SHARE)
         self._place = rect
         surface.blit(self._image, rect)
         for plot in self._plots:
@@ -221,95 +207,85 @@ class Scopes(Panel):
 
     def _draw_plots(self, surface: pygame.Surface, frame: Frame) -> None:
         """Draw the plots for which there is room, and say what is missing."""
-        ui, record, fonts = self.painter.ui, self._player.source.recorded, self.painter.fonts
-        wide, size, dt = surface.get_width(), 12 * ui, frame.scenario.sampling_time
-        read = [
-            without_nothing(each) for trace in self.traces for each in trace.read(record, frame)
-        ]
-        errors = [f"{trace.name}: {trace.error}" for trace in self.traces if trace.error]
-        texts = [line for error in errors for line in fonts.wrap(error, size, wide, 4)]
-        height = surface.get_height() - round(FOOT * ui)
-        fit = max(1, int((height / ui - LINE * len(texts)) // LEAST))
-        if len(read) > fit:
-            names = ", ".join(dict.fromkeys(signal.name for signal in read[fit:]))
-            texts.append(fonts.shorten(f"no room for {names}", size, wide))
-        for k, text in enumerate(texts):
-            at = 0, round((k + 0.5) * LINE * ui)
-            self.painter.write(surface, text, size, self.painter.theme.error.ink, midleft=at)
-        top, read = round(LINE * len(texts) * ui), read[:fit]
+        ui, record, place = self.painter.ui, self._player.source.recorded, surface.get_rect()
+        dt, ink = frame.scenario.sampling_time, self.painter.theme.error.ink
+        found, said = self._signals(frame)
+        fit = max(1, int((place.height / ui - FOOT - 2 * LINE * len(said)) // LEAST))
+        if len(found) > fit:
+            said.append(f"no room for {', '.join(signal.name for signal in found[fit:])}")
+        rows = [row for each in said for row in self.wrapped(Word(each, ink), place.width / ui, 4)]
+        draw_rows(surface, rows, place, ui)
+        place.height -= round((FOOT + height_of(rows)) * ui)
+        place.top, found = round(height_of(rows) * ui), found[:fit]
         start, end = self._shown(frame, max(len(record) - 1, frame.iteration))
-        high, seen = (height - top) // max(1, len(read)), slice(int(start / dt), int(end / dt) + 2)
-        self._plots = []
-        for k, signal in enumerate(read):
-            limits = limits_of(start, end, signal.values[seen])
-            place = pygame.Rect(0, top + k * high, wide, high)
-            plot = self._plot(place, signal, frame.scenario, limits)
-            draw_axes(surface, plot.area, self.painter, limits, times=k == len(read) - 1)
-            self._draw_curves(surface, plot, dt)
+        place.height //= max(1, len(found))
+        self._plots, before = [], surface.get_clip()
+        for signal in found:
+            values, times = signal.values, dt * np.arange(len(signal.values), dtype=float)
+            plot = self._plot(place, signal, frame.scenario, start, end)
+            plot.axes.draw(surface, self.painter, times=signal is found[-1])
+            surface.set_clip(plot.axes.area.inflate(2, 4).clip(before))
+            if len(plot.colors) > CROWD:
+                plot.axes.draw_quartiles(surface, self.painter, times, values)
+            for k in plot.single:
+                lines = plot.axes.lines(times, values[:, k], held=signal.held, wraps=signal.wraps)
+                draw_curve(surface, self.painter, lines, plot.colors[k], WIDTH)
+            surface.set_clip(before)
             self._plots.append(plot)
+            place.top = place.bottom
 
     def _shown(self, frame: Frame, newest: int) -> tuple[float, float]:
-        """Return the time that is shown, seconds."""
+        """Return the time that is shown, seconds: all, or one of the parts that have the span."""
         dt = frame.scenario.sampling_time
         if self.span is None:
             return 0.0, max(newest * dt, span_of(dt))
-        if not self._end - self.span <= frame.time <= self._end:
-            self._end = frame.time if frame.time > self._end else frame.time + self.span
-        self._end = max(self._end, self.span)
-        return self._end - self.span, self._end
+        start = frame.time // self.span * self.span
+        return start, start + self.span
 
     def _plot(
-        self, place: pygame.Rect, signal: Signal, scenario: Scenario, limits: Limits
+        self, place: pygame.Rect, signal: Signal, scenario: Scenario, start: float, end: float
     ) -> _Plot:
         """Return a plot in a place; the colour of a curve is its body's, if it tells them apart."""
         ui, count = self.painter.ui, signal.values.shape[1]
         each = count // max(1, len(signal.bodies))
         bodies = [body for body in signal.bodies for _ in range(each)]
-        names = [str(scenario.bodies[body].name) for body in bodies]
-        if each > 1:
-            names = [f"{name} {k % each}" for k, name in enumerate(names)]
+        names = [f"{scenario.bodies[body].name}" for body in bodies]
+        names = [f"{name} {k % each}" for k, name in enumerate(names)] if each > 1 else names
         colors = [scenario.body_colors[body] for body in bodies]
         if not colors or len(set(colors)) < count <= len(PALETTE):
             colors = [PALETTE[k % len(PALETTE)] for k in range(count)]
         single: Sequence[int] = range(count)
         if count > CROWD:  # of many only those of the chosen body
             single = [k for k, body in enumerate(bodies) if body == self._selection.body]
-        below = 1 < count <= NAMED and place.height >= HIGH * ui
+        if not bodies:  # in few words: the title says that it is energy
+            names = [name.removeprefix("work of ") * (count > 1) for name in signal.curves]
+        named = names if 1 < count <= NAMED else []
+        wide = width_of(self.painter, [Word(f"{name} {as_number(1.0)}", "", 12) for name in named])
+        below = ceil(wide / (place.width - LEFT * ui))
+        below = below if place.height >= (HIGH + LINE * below) * ui else 0
         top, left = place.top + round((TITLE + LINE * below) * ui), place.left + round(LEFT * ui)
         area = pygame.Rect(left, top, place.right - left - 2, place.bottom - round(GAP * ui) - top)
         shades = [self.painter.theme.shade(color) for color in colors]
-        names = names if bodies else [*signal.curves] if count > 1 else [""]
-        return _Plot(signal, area, limits, shades, names, single, below)
-
-    def _draw_curves(self, surface: pygame.Surface, plot: _Plot, sampling_time: float) -> None:
-        """Draw the curves of a plot."""
-        signal, area, limits, before = plot.signal, plot.area, plot.limits, surface.get_clip()
-        times = sampling_time * np.arange(len(signal.values), dtype=float)
-        surface.set_clip(area.inflate(2, 4).clip(before))
-        if len(plot.colors) > CROWD:
-            draw_quartiles(surface, area, self.painter, limits, times, signal.values)
-        held, wraps = signal.held, signal.wraps
-        for k in plot.single:
-            lines = polylines(area, limits, times, signal.values[:, k], held=held, wraps=wraps)
-            draw_curve(surface, self.painter, lines, plot.colors[k], WIDTH)
-        surface.set_clip(before)
+        dt = scenario.sampling_time
+        axes = Axes.round(area, start, end, signal.values[int(start / dt) : int(end / dt) + 2])
+        return _Plot(signal, axes, shades, names, single, below)
 
     def _draw_cursor(self, surface: pygame.Surface, plot: _Plot, frame: Frame) -> None:
         """Draw where the time shown lies in a plot, and write the values there."""
         ui, theme = self.painter.ui, self.painter.theme
-        area, signal = plot.area.move(self._place.topleft), plot.signal
+        axes, signal = self._on_surface(plot), plot.signal
         row = min(frame.iteration, len(signal.values) - 1)
         values = signal.values[row] if row >= 0 else np.full(len(plot.colors), np.nan)
-        if plot.limits.start <= frame.time <= plot.limits.end:
-            ((x, _),) = plot.limits.pixels(area, np.array([frame.time]), np.zeros(1)).tolist()
-            surface.fill(theme.selected, (round(x), area.top, max(1, round(ui)), area.height))
+        if axes.start <= frame.time <= axes.end:
+            x = round(axes.x_of(frame.time))
+            surface.fill(theme.selected, (x, axes.area.top, max(1, round(ui)), axes.area.height))
         high, unit = round(LINE * ui), f" [{signal.unit}]" if signal.unit else ""
         line = pygame.Rect(self._place.left, 0, self._place.width, high)
-        line.centery = area.top - round((TITLE / 2 + (LINE if plot.below else 0)) * ui)
+        line.centery = axes.area.top - round((TITLE / 2 + LINE * plot.below) * ui)
         title = Word(f"{signal.name}{unit}", theme.ink, 12, bold=True)
         free = write_line(surface, line, self.painter, [title])
         if plot.below:
-            free = pygame.Rect(area.left, line.bottom, line.right - area.left, high)
+            free = pygame.Rect(axes.area.left, line.bottom, line.right - axes.area.left, high)
         self._write_values(surface, plot, values, free)
 
     def _write_values(
@@ -323,13 +299,17 @@ class Scopes(Panel):
             own = [Word(both[k], plot.colors[k], 12) for k in plot.single] if count > CROWD else []
             write_line(surface, rect, self.painter, [Word(text, self.painter.theme.muted, 12)], own)
             return
-        size, gap = 12 * self.painter.ui, round(WORD_GAP * self.painter.ui)
+        each = max(1, ceil(count / max(plot.below, 1)))
         for texts in (both, numbers):
-            widths = [self.painter.fonts.width(text, size) + gap for text in texts]
-            if sum(widths) <= rect.width:
-                words = [Word(*each, 12) for each in zip(texts, plot.colors, strict=True)]
-                write_line(surface, rect, self.painter, right=words)
+            words = [Word(*word, 12) for word in zip(texts, plot.colors, strict=True)]
+            lines = [words[k : k + each] for k in range(0, count, each)]
+            if all(width_of(self.painter, line) <= rect.width for line in lines):
+                for k, line in enumerate(lines):
+                    write_line(surface, rect.move(0, k * rect.height), self.painter, right=line)
                 return
+
+    def _on_surface(self, plot: _Plot) -> Axes:
+        return plot.axes._replace(area=plot.axes.area.move(self._place.topleft))
 
     # -- the mouse ----------------------------------------------------------------------------
 
@@ -338,33 +318,21 @@ class Scopes(Panel):
         if event.type == pygame.MOUSEWHEEL:
             self.zoom(wheel_notches(event))
             return False
-        if event.type == pygame.MOUSEMOTION and self._held is not None:
-            self._go_to(self._held, event.pos[0])
-        elif event.type == pygame.MOUSEBUTTONUP:
+        if event.type == pygame.MOUSEBUTTONUP:
             self._held = None
         elif event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
-            x, y = event.pos
-            at = x - self._place.left, y - self._place.top
-            self._held = next((plot for plot in self._plots if plot.area.collidepoint(at)), None)
-            if self._held is not None:
-                self._go_to(self._held, x)
-            return self._held is not None
-        return False
-
-    def _go_to(self, plot: _Plot, x: int) -> None:
-        """Go to the row at a pixel from the left."""
-        area, limits = plot.area, plot.limits
-        share = (x - self._place.left - area.left) / area.width
-        if self._frame is not None:
-            when = limits.start + share * (limits.end - limits.start)
-            self._player.go(max(0, round(when / self._frame.scenario.sampling_time)))
+            axes = map(self._on_surface, self._plots)
+            self._held = next((each for each in axes if each.area.collidepoint(event.pos)), None)
+        if self._held is not None:
+            dt = self._player.frame.scenario.sampling_time
+            self._player.go(max(0, round(self._held.time_at(event.pos[0]) / dt)))
+        return self._held is not None
 
     def zoom(self, notches: float) -> None:
         """Show less time by notches of the wheel, or more, until it is all."""
         if not self._plots or self._frame is None:
             return
-        dt, limits = self._frame.scenario.sampling_time, self._plots[0].limits
+        dt, axes = self._frame.scenario.sampling_time, self._plots[0].axes
         whole = max(len(self._plots[0].signal.values) * dt, span_of(dt))
-        span = (limits.end - limits.start) * ZOOM**-notches
+        span = (axes.end - axes.start) * ZOOM**-notches
         self.span = None if span >= whole else max(span, SHORTEST * dt)
-        self._end = limits.end

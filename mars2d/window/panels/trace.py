@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.errors import LawError, Mars2dError, shown
+from mars2d.core.errors import LawError, shown
 from mars2d.core.usercode import called, name_of
 from mars2d.output.signals import Signal, signals_of_bodies
 from mars2d.record.frame import Frame
@@ -27,37 +27,23 @@ FEW = 6
 """The most numbers of a body's reading that are drawn as curves."""
 
 
-class Trace:
-    """The signals of a column, or of a function of the user's own.
+def read(what: What, bodies: tuple[int, ...], record: Record, frame: Frame) -> list[Signal]:
+    """Return the signals of a column or a function in all rows of a record, of curves (T, k) each.
 
-    bodies: indices of `Scenario.bodies`. error: why there is no signal, or "".
+    If the frame is the row after the last one, as while a run goes on, it is the last row here.
+    bodies: indices of `Scenario.bodies`. Raises InputError for an unknown column, and LawError for
+    readings of many numbers, and for an error of the function, whose line it names.
     """
-
-    def __init__(self, what: What, bodies: tuple[int, ...] = ()) -> None:
-        """Start with nothing read."""
-        self.what, self.bodies = what, bodies
-        self.error = ""
-
-    @property
-    def name(self) -> str:
-        """The name of the column or of the function."""
-        return self.what if isinstance(self.what, str) else name_of(self.what)
-
-    def read(self, record: Record, frame: Frame) -> list[Signal]:
-        """Return the signals of all rows of a record, with curves (T, k) each.
-
-        If the frame is the row after the last one, as while a run goes on, it is the last row here.
-        """
-        self.error = ""
-        try:
-            if not isinstance(self.what, str):
-                return _own(self.name, self.what, record) if len(record) else []
-            whole = with_present(record, frame)
-            found = signals_of_bodies(whole, self.what, self.bodies) if len(whole) else []
-            return [_flat(each) for each in found]
-        except Mars2dError as error:
-            self.error = str(error).removeprefix("columns: ")
-            return []
+    if not isinstance(what, str):
+        return [_own(name_of(what), what, record)] if len(record) else []
+    whole = with_present(record, frame)
+    found = signals_of_bodies(whole, what, bodies) if len(whole) else []
+    for signal in found:
+        if signal.values.ndim > 2 and signal.values[0, 0].size > FEW:
+            many = signal.values[0, 0].size
+            raise LawError(f"{signal.name} has {many} numbers: too many for curves")
+    flat = (each.values.reshape(len(each.values), -1).astype(float) for each in found)
+    return [replace(each, values=values) for each, values in zip(found, flat, strict=True)]
 
 
 def with_present(record: Record, frame: Frame) -> Record:
@@ -74,8 +60,7 @@ def with_present(record: Record, frame: Frame) -> Record:
         "effort": frame.effort, "velocity": velocity[:, :n], "prop_velocity": velocity[:, n:],
         "work": frame.work,
     }  # fmt: skip
-    columns: dict[str, Any] = {name: getattr(record, name) for name in COLUMNS}
-    columns = {name: _longer(values, known.get(name)) for name, values in columns.items()}
+    columns: Any = {each: _longer(getattr(record, each), known.get(each)) for each in COLUMNS}
     sensors = {}
     for name, values in record.sensors.items():
         sensors[name], read = _longer(values), dict(frame.readings.get(name, ()))
@@ -92,34 +77,19 @@ def _longer(values: NDArray[Any], last: Any = None) -> NDArray[Any]:
     return np.concatenate([values, np.asarray(last, dtype=values.dtype)[None]])
 
 
-def _flat(signal: Signal) -> Signal:
-    """Return a signal with curves (T, k). Raises LawError for readings of many numbers."""
-    values = signal.values
-    if values.ndim > 2 and values[0, 0].size > FEW:
-        raise LawError(f"{signal.name} has {values[0, 0].size} numbers: too many for curves")
-    return replace(signal, values=values.reshape(len(values), -1).astype(float))
-
-
-def _own(name: str, function: Callable[[Any], Any], record: Record) -> list[Signal]:
+def _own(name: str, function: Callable[[Any], Any], record: Record) -> Signal:
     """Return the signal of a function of the user's own. Raises LawError, which names its line."""
-    expected = f"expected a number for each of the {len(record)} rows, or a dict of such arrays"
     with called(name, function):
         made = function(record)
-        named = made if isinstance(made, Mapping) else {"": made}
-        curves = []
-        for key, values in named.items():
-            try:
-                curve = np.asarray(values, dtype=float)
-            except (TypeError, ValueError):
-                curve = np.empty(0)
-            if curve.shape != (len(record),):
-                what = f"{key}: {shown(values)}" if key else shown(values)
-                raise LawError(f"{name} returned {what}: {expected}")
-            curves.append(curve)
-        if not curves:
-            raise LawError(f"{name} returned {shown(made)}: {expected}")
-    names = tuple(map(str, named)) if isinstance(made, Mapping) else (name,)
-    return [Signal(name, "", np.stack(curves, axis=1), (), curves=names)]
+        named = made if isinstance(made, Mapping) else {name: made}
+        try:
+            curves = [np.asarray(values, dtype=float) for values in named.values()]
+        except (TypeError, ValueError):
+            curves = []
+        if not curves or any(curve.shape != (len(record),) for curve in curves):
+            expected = f"a number for each of the {len(record)} rows, or a dict of such arrays"
+            raise LawError(f"{name} returned {shown(made)}: expected {expected}")
+    return Signal(name, "", np.stack(curves, axis=1), (), curves=tuple(map(str, named)))
 
 
 def span_of(sampling_time: float) -> float:

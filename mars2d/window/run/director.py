@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 import pygame
 
-from mars2d.core.errors import InputError, Mars2dError, counted
-from mars2d.scenario.changes import alike, carried, check_same, with_poses
+from mars2d.core.errors import InputError, counted
+from mars2d.scenario.changes import carried, with_poses
 from mars2d.scenario.controllers import standing_still
-from mars2d.scenario.experiment import Experiment, open_experiment
-from mars2d.scenario.robot import Robot
+from mars2d.scenario.experiment import open_experiment
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.run.driver import ARROWS, LETTERS, Driver
 from mars2d.window.screen.looks import Looks
 from mars2d.window.screen.player import Player
 from mars2d.window.screen.source import RECORDING
 from mars2d.window.widgets.notes import Notes
-from mars2d.world.past import Progress
+from mars2d.world.branch import Progress
 from mars2d.world.timeline import Timeline
 from mars2d.world.world import World
 
@@ -40,30 +40,37 @@ class Director:
         if self.timeline is not None:
             player.error = self.timeline.error
 
-    def change(self, act: Callable[[World], None]) -> bool:
-        """Do something to the world; return whether it was possible."""
+    @contextmanager
+    def _showing(self, timeline: Timeline) -> Iterator[None]:
+        """Show what is done to the run meanwhile; say that a branch begins, and a doubt."""
+        back, branch, others = timeline.needs_way_back, timeline.branch, len(timeline.others)
+        try:
+            yield
+        finally:
+            self._player.error = timeline.error
+            if back or not (self._player.playing and timeline.newest):
+                self._player.settle()  # otherwise time goes on from where it is
+        if timeline.branches and len(timeline.others) > others:
+            self._notes.say("a new branch begins here; B shows what was run before")
+        if timeline.branch is not branch and timeline.branch.doubt:
+            self._notes.say(timeline.branch.doubt, "warning")
+
+    def _do(self, act: Callable[[Timeline], object]) -> bool:
+        """Do something to the run, or say why it can't be done; return whether it was."""
         timeline = self._live()
         if timeline is None:
             return False
-        back, branches = timeline.needs_way_back, len(timeline.branches)
         try:
-            timeline.change(act, self._show_way_back)
+            with self._showing(timeline):
+                act(timeline)
         except InputError as error:
             self._notes.say(str(error), "warning")
             return False
-        finally:
-            if back or not self._player.playing:  # otherwise time goes on from where it is
-                self._player.settle()
-        self._begun(branches)
-        if timeline.remark:
-            self._notes.say(timeline.remark, "warning")
         return True
 
-    def _begun(self, branches: int) -> None:
-        """Forget an error after a change, and say that a branch begins; branches: before."""
-        self._player.error = None
-        if self.timeline is not None and len(self.timeline.branches) > branches:
-            self._notes.say("a new branch begins here; B shows what was run before")
+    def change(self, act: Callable[[World], None]) -> bool:
+        """Do something to the world; return whether it was possible."""
+        return self._do(lambda timeline: timeline.change(act, self._show_way_back))
 
     def step_within(self, way: int) -> None:
         """Show the next moment within a control step, or for -1 the one before."""
@@ -76,7 +83,7 @@ class Director:
             player.step()
         try:
             moments = timeline.within(self._show_way_back)
-        except Mars2dError as error:
+        except InputError as error:
             self._notes.say(str(error), "warning")
             return
         player.look_within(moments)
@@ -89,45 +96,32 @@ class Director:
         return self.timeline
 
     def other_branch(self) -> None:
-        """Show the branch that was run before a change."""
-        timeline = self._live()
-        if timeline is None:
-            return
-        if timeline.others:
-            self.show(timeline.others[0])
-        else:
-            self._notes.say("there is no other branch: change something in the past to make one")
+        """Show the branch that was run before a change, or an earlier run."""
 
-    def show(self, other: World) -> None:
-        """Show another branch, or an earlier run."""
-        timeline = self.timeline
-        assert timeline is not None
-        kind = "another branch" if other in timeline.branches else "an earlier run"
-        timeline.show(other)
-        timeline.world.operator.let_go()
-        self._player.error = timeline.error
-        self._player.settle()
-        end = timeline.newest * timeline.scenario.sampling_time
-        again = "goes back" if len(timeline.others) == 1 else "shows the next one"
-        self._notes.say(f"{kind}, run until {end:.6g} s; B {again}")
+        def show(timeline: Timeline) -> None:
+            if not timeline.others:
+                raise InputError("there is no other branch: change something in the past first")
+            other = timeline.others[0]
+            kind = "another branch" if other in timeline.branches else "an earlier run"
+            timeline.show(other)
+            timeline.world.operator.let_go()
+            self._player.settle()
+            end = timeline.newest * timeline.scenario.sampling_time
+            again = "goes back" if len(timeline.others) == 1 else "shows the next one"
+            self._notes.say(f"{kind}, run until {end:.6g} s; B {again}")
+
+        self._do(show)
 
     def undo(self) -> None:
         """Undo the last thing done by hand."""
-        timeline = self._live()
-        if timeline is None:
-            return
-        try:
-            undone = timeline.undo(self._show_way_back)
-        except InputError as error:
-            self._notes.say(str(error), "warning")
-            return
-        self.release()
-        self._player.error = None
-        self._player.pause()
-        at = undone.row * timeline.scenario.sampling_time
-        self._notes.say(f"undone, at {at:.6g} s; B shows the run with it")
-        if timeline.remark:
-            self._notes.say(timeline.remark, "warning")
+
+        def undo(timeline: Timeline) -> None:
+            at = timeline.undo(self._show_way_back).row * timeline.scenario.sampling_time
+            self.release()
+            self._player.pause()
+            self._notes.say(f"undone, at {at:.6g} s")
+
+        self._do(undo)
 
     def set(self, name: str, value: float, restart: bool = True) -> str:
         """Set a parameter; return why the run starts again, or "".
@@ -135,22 +129,10 @@ class Director:
         restart: whether it may. Raises InputError where it can't have that value, and for a
         recording; LawError where a law or a sensor fails with it.
         """
-        timeline = self.timeline
-        if timeline is None:
+        if self.timeline is None:
             raise InputError(RECORDING)
-        back, branches = timeline.needs_way_back, len(timeline.branches)
-        try:
-            reason = timeline.set({name: value}, self._show_way_back, restart=restart)
-        except Mars2dError:
-            self._player.error = timeline.error
-            self._player.settle()
-            raise
-        if reason and not restart:
-            return reason
-        if reason or back or not (self._player.playing and timeline.newest):
-            self._player.settle()
-        self._begun(branches)
-        return reason
+        with self._showing(self.timeline):
+            return self.timeline.set({name: value}, self._show_way_back, restart=restart)
 
     # -- robots driven by hand ----------------------------------------------------------------
 
@@ -185,7 +167,7 @@ class Director:
             return
         self.seat((robot,))
         mine = scenario.robots[robot]
-        turns = ", Q and E turn it" * _turns(mine)
+        turns = ", Q and E turn it" * mine.drive.second_stick
         self._notes.say(
             f"arrow keys or WASD drive {mine.name}{turns}, Shift slowly; H or Esc lets go"
         )
@@ -197,7 +179,7 @@ class Director:
         self.drivers = (Driver(),) if len(robots) < 2 else (one, two)
         for driver, robot in zip(self.drivers, robots, strict=False):
             mine = self._player.source.scenario.robots[robot]
-            driver.take(robot, str(mine.name), turns=_turns(mine))
+            driver.take(robot, str(mine.name), turns=mine.drive.second_stick)
 
     def release(self) -> None:
         """Stop driving, as far as keys are concerned."""
@@ -279,53 +261,38 @@ class Director:
 
     def apply(self, outcome: Outcome) -> None:
         """Continue with the drawn scenario, from now or from the start."""
-        assert self.timeline is not None
         laws = {robot.name: robot.controller for robot in self._player.frame.scenario.robots}
         robots = outcome.scenario.robots
         given = frozenset(
             r.name for r in robots if r.controller is not laws.get(r.name, r.controller)
         )
-        if outcome.when == "start":
-            drawn = self.timeline.experiment.redrawn(outcome.scenario, given)
-            self._restart(drawn, "started again with what was drawn; Space goes on")
-            return
-        before = self.scenario_now().bodies
-        bodies = enumerate(outcome.scenario.bodies)
-        moved = {i: body.pose for i, body in bodies if body.pose != before[i].pose}
+
+        def start(timeline: Timeline) -> None:
+            timeline.restart(timeline.experiment.redrawn(outcome.scenario, given))
+            self._notes.say("started again with what was drawn; Space goes on")
 
         def draw(world: World) -> None:
-            check_same(world.scenario, outcome.scenario, alike)
+            pairs = zip(self.scenario_now().bodies, outcome.scenario.bodies, strict=True)
+            moved = {i: b.pose for i, (a, b) in enumerate(pairs) if a.pose != b.pose}
             # In the past this is another world, whose own laws go on.
             drawn = carried(world.scenario, outcome.scenario, given)
             world.operator.change(drawn, world.control, moved, given=given)
 
-        if self.change(draw):
+        if outcome.when == "start":
+            self._do(start)
+        elif self.change(draw):
             self._notes.say("what was drawn holds from now on; Space goes on")
 
     def next_start(self) -> None:
         """Start again with the next seed."""
-        timeline = self._live()
-        if timeline is None:
-            return
-        now = timeline.experiment
-        seed = now.options.get("seed", now.seed or 0) + 1
-        options = {name: value for name, value in now.options.items() if name != "seed"}
-        law = None if now.alone else now.control
-        again = open_experiment(now.source.path or now.scenario, options, law, seed)
-        self._restart(again, f"start {seed}")
 
-    def _restart(self, experiment: Experiment, said: str) -> None:
-        assert self.timeline is not None
-        try:
-            self.timeline.restart(experiment)
-        except InputError as error:
-            self._notes.say(str(error), "error")
-            return
-        self._player.error = None
-        self._player.settle()
-        self._notes.say(said)
+        def start(timeline: Timeline) -> None:
+            now = timeline.experiment
+            seed = now.options.get("seed", now.seed or 0) + 1
+            options = {name: value for name, value in now.options.items() if name != "seed"}
+            law = None if now.alone else now.control
+            again = open_experiment(now.source.path or now.scenario, options, law, seed)
+            timeline.restart(again)
+            self._notes.say(f"start {seed}")
 
-
-def _turns(robot: Robot) -> bool:
-    """Return whether a robot can turn as it moves in any direction."""
-    return robot.drive.second_stick
+        self._do(start)

@@ -26,17 +26,19 @@ def ghosts(timeline: Timeline, frame: Frame) -> Scene:
     Bodies at the same pose as in the present branch are left out.
     """
     scene = Scene()
-    for world in timeline.branches[-1:]:
-        parted, dt = timeline.parted(world), frame.scenario.sampling_time
+    for branch in timeline.branches[-1:]:
+        world, parted = branch.world, timeline.branch.common(branch)
+        dt = frame.scenario.sampling_time
         # Times are whole numbers of steps, except for rounding.
         along = min(round(frame.time / dt, 6), float(world.iteration))
         if along < parted:
             continue
-        there = _poses(world, along)
+        row, share = int(along), along % 1.0
+        there = (1 - share) * branch.poses(row) + share * branch.poses(row + 1)
         apart = np.abs(there - frame.all_poses).max(axis=0)
         drawn = [body for body in np.argsort(-apart)[:MAX_BODIES].tolist() if apart[body] > APART]
         for body in drawn[:MAX_PATHS]:
-            _draw_path(scene, world, body, (parted, int(along)), there[:2, body])
+            _draw_path(scene, world, body, (parted, row), there[:2, body])
         for body in drawn:
             _draw_body(scene, world, body, there[:, body])
         for body in drawn[:1]:
@@ -48,17 +50,6 @@ def ghosts(timeline: Timeline, frame: Frame) -> Scene:
             text, place = f"branch from {parted * dt:.4g} s{over}", (x, y + 1.15 * radius)
             scene.text(place, text, color=NAME_COLOR, size=12, anchor="above", halo="#ffffff")
     return scene
-
-
-def _poses(world: World, along: float) -> Float:
-    """Return the poses (3, n + p) of all bodies at a row, interpolated between two."""
-    row, share = int(along), along % 1.0
-    history, newest = world.history, np.hstack([world.pose, world.prop_pose])
-    rows = [
-        np.hstack([history.pose[k], history.prop_pose[k]]) if k < len(history.pose) else newest
-        for k in (row, row + 1)
-    ]
-    return np.asarray(rows[0] + share * (rows[1] - rows[0]))
 
 
 def _draw_path(scene: Scene, world: World, body: int, rows: tuple[int, int], there: Float) -> None:

@@ -102,8 +102,8 @@ MOUSE = (
     _action("pan", "Drag", "on the floor, move the picture; on the time bar, go to a time"),
 )
 
-GROUPS: Mapping[str, Sequence[Action]] = {"Time": TIME, "See": SEE, "Do": DO, "Mouse": MOUSE}
-"""All of them, in the groups of the help."""
+GROUPS: Mapping[str, Sequence[Action]] = {"Time": TIME, "See": SEE, "Do": DO}
+"""Those with keys, in the groups of the help."""
 
 HOME = (
     Action("search", "search by letters that are typed", ("A to Z",)),

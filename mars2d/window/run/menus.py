@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from math import dist
 
@@ -15,6 +15,10 @@ from mars2d.record.frame import Frame
 from mars2d.window.panels.scopes import Scopes
 from mars2d.window.panels.trace import FEW, What
 from mars2d.window.run.keys import key_of
+from mars2d.window.run.tools import Tools
+from mars2d.window.screen.picking import Selection
+from mars2d.window.screen.player import Player
+from mars2d.window.screen.source import Playback
 from mars2d.window.widgets.menu import Entry
 
 Actions = Mapping[str, Callable[[], None]]
@@ -33,11 +37,6 @@ NEAREST = 5
 """The most bodies whose distance is offered: the nearest."""
 
 
-def entries_of(names: Iterable[str], actions: Actions) -> list[Entry]:
-    """Return an entry for each action of some names."""
-    return [Entry(TITLES[name], actions[name], key_of(name)) for name in names]
-
-
 def layer_entries(layers: Layers, switch: Callable[..., None]) -> list[Entry]:
     """Return an entry for each layer that people may switch; switch: toggles one of them alone."""
     return [
@@ -50,46 +49,56 @@ def layer_entries(layers: Layers, switch: Callable[..., None]) -> list[Entry]:
     ]  # fmt: skip
 
 
-def entries_of_body(frame: Frame, body: int, actions: Actions, *, live: bool) -> list[Entry]:
-    """Return what can be done with the selected body; live: whether the run can be changed."""
-    drives = ("drive",) if body < len(frame.scenario.robots) else ()
-    names = ("follow", "scopes", *((*drives, "push") if live else ()))
-    return [Entry(str(frame.scenario.bodies[body].name)), *entries_of(names, actions)]
+class Offers:
+    """What the menus of a run window offer: with what is selected, on the floor, to plot.
 
-
-def entries_of_place(
-    point: Point, actions: Actions, measure: Callable[[Point], object], *, live: bool
-) -> list[Entry]:
-    """Return what can be done at a point [m] of the floor.
-
-    measure: begins to measure there. live: whether the run can be changed.
+    acts: the effects of actions, by name.
     """
-    names = ("stopwatch", "printed", *(("edit", "undo") if live else ()))
-    return [
-        Entry(f"({point[0]:.3g}, {point[1]:.3g}) m"),
-        *entries_of(["fit"], actions),
-        Entry("Measure from here", lambda: measure(point), key_of("ruler")),
-        *entries_of(names, actions),
-    ]
 
+    def __init__(
+        self, player: Player, selection: Selection, tools: Tools, scopes: Scopes, acts: Actions
+    ) -> None:
+        self._player, self._selection, self._tools = player, selection, tools
+        self._scopes, self._acts = scopes, acts
+        self._live = not isinstance(player.source, Playback)
 
-def entries_of_scopes(
-    frame: Frame, body: int | None, scopes: Scopes, actions: Actions
-) -> list[Entry]:
-    """Return the quantities to plot of a body, an index of `Scenario.bodies`, or of all robots."""
-    scenario = frame.scenario
-    bodies = tuple(range(len(scenario.robots))) if body is None else (body,)
-    who = "All robots" if body is None else str(scenario.bodies[body].name)
+    def _entries(self, *names: str, live: Sequence[str] = ()) -> list[Entry]:
+        """Return entries of actions; live: of those that need a run that can be changed."""
+        names = (*names, *(live if self._live else ()))
+        return [Entry(TITLES[name], self._acts[name], key_of(name)) for name in names]
 
-    def entry(title: str, what: What, of: tuple[int, ...]) -> Entry:
-        return Entry(title, partial(scopes.switch, what, of), "", scopes.shows(what, of))
+    def at(self, point: Point) -> list[Entry]:
+        """Return what can be done with the selected body; without one, at a point [m]."""
+        body, scenario = self._selection.body, self._player.source.scenario
+        if body is not None:
+            robot = body < len(scenario.robots)
+            live = ["drive", "push"] if robot else ["push"]
+            title = Entry(str(scenario.bodies[body].name))
+            return [title, *self._entries("follow", "scopes", live=live)]
+        measure = partial(self._tools.measure_from, point)
+        return [
+            Entry(f"({point[0]:.3g}, {point[1]:.3g}) m"),
+            *self._entries("fit"),
+            Entry("Measure from here", measure, key_of("ruler")),
+            *self._entries("stopwatch", "printed", live=["edit", "undo"]),
+        ]
 
-    (save,) = entries_of(["figure"], actions)  # which is there before, too: others stay put
-    entries = [save if scopes.is_open else save._replace(act=None, tone="note"), Entry(who)]
-    entries += [entry(title, what, bodies) for title, what in _columns(frame, body).items()]
-    entries.append(Entry("All bodies"))
-    entries += [entry(title, what, ()) for title, what in OF_ALL.items()]
-    return entries + [entry(name_of(each), each, ()) for each in scopes.functions]
+    def plots(self) -> list[Entry]:
+        """Return the quantities to plot of the selected body, or of all robots."""
+        frame, body, scopes = self._player.frame, self._selection.body, self._scopes
+        scenario = frame.scenario
+        bodies = tuple(range(len(scenario.robots))) if body is None else (body,)
+        who = "All robots" if body is None else str(scenario.bodies[body].name)
+
+        def entry(title: str, what: What, of: tuple[int, ...]) -> Entry:
+            return Entry(title, partial(scopes.switch, what, of), "", scopes.shows(what, of))
+
+        (save,) = self._entries("figure")  # which is there before, too: others stay put
+        entries = [save if scopes.is_open else save._replace(act=None, tone="note"), Entry(who)]
+        entries += [entry(title, what, bodies) for title, what in _columns(frame, body).items()]
+        entries.append(Entry("All bodies"))
+        entries += [entry(title, what, ()) for title, what in OF_ALL.items()]
+        return entries + [entry(name_of(each), each, ()) for each in scopes.functions]
 
 
 def _columns(frame: Frame, body: int | None) -> dict[str, str]:

@@ -13,7 +13,7 @@ from mars2d.addons.contest import Contest, wins
 from mars2d.bodies.drives.base import Drive
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import Steer
-from mars2d.scenario.law_reference import Reference
+from mars2d.scenario.code_file import Reference
 from mars2d.scenario.roles import contests_of, role_of, roles_of
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.run.director import Director
@@ -64,7 +64,8 @@ class Play:
 
     def __init__(self, player: Player, director: Director) -> None:
         """Start with nobody seated; `begin` seats people and counts down."""
-        self._player, self._director = player, director
+        assert director.timeline is not None  # a recording is not played
+        self._player, self._director, self._timeline = player, director, director.timeline
         self._slowest = player.speed
         self.seats: tuple[Seat, ...] = ()
         self.counting = 0.0  # seconds to go
@@ -144,21 +145,13 @@ class Play:
         elif self.result is None and self.seats and player.over and not player.failed:
             self.result = self._ended()
             return True
-        elif self.result is not None and not self._is_decided:
+        elif self.result is not None and not self._timeline.world.over:
             self.result = None  # somebody went back, and something else has happened
         return False
 
-    @property
-    def _is_decided(self) -> bool:
-        """Whether the run is over, whatever part of it is looked at."""
-        timeline = self._director.timeline
-        return timeline is not None and timeline.world.over
-
-    def _ended(self) -> Result | None:
+    def _ended(self) -> Result:
         """Return how the game has ended."""
-        timeline, contest = self._director.timeline, self.contest
-        if timeline is None:
-            return None
+        timeline, contest = self._timeline, self.contest
         record = timeline.record
         if contest is None or not len(record):
             return Result(record.over_message)
@@ -184,10 +177,10 @@ class Play:
         Where nobody plays with more than one robot, it says nothing before the end. It is empty,
         too, of a referee that does not tell its `score` while a world runs.
         """
-        timeline, contest = self._director.timeline, self.contest
-        if timeline is None or contest is None or all(len(team) < 2 for _, team in contest.roles):
+        contest = self.contest
+        if contest is None or all(len(team) < 2 for _, team in contest.roles):
             return {}
-        score = getattr(getattr(timeline.world.addons, contest.key, None), "score", None)
+        score = getattr(getattr(self._timeline.world.addons, contest.key, None), "score", None)
         if not isinstance(score, dict):
             return {}
         pairs = zip(score.items(), contest.scored, strict=False)
@@ -199,13 +192,13 @@ class Play:
         Robots that are out of the game do not count, and of those in a single person's role only
         the person's own, if it hunts or is hunted. None if there are no two.
         """
-        timeline, contest = self._director.timeline, self.contest
-        if timeline is None or contest is None:
+        contest = self.contest
+        if contest is None:
             return None
         own = [seat.robot for seat in self.seats if len(self.seats) == 1]
         players = contest.players(frame.scenario)
         teams = [[robot for robot in team if robot in own] or [*team] for team in players]
-        held = timeline.world.operator.held
+        held = self._timeline.world.operator.held
         free = [[robot for robot in team if robot not in held] for team in teams]
         one, other = free if all(free) else teams
         apart = frame.pose[:2, one, None] - frame.pose[:2, None, other]
@@ -214,8 +207,7 @@ class Play:
     @property
     def task(self) -> str:
         """What there is to do where nobody wins: the first line of the experiment's docstring."""
-        timeline = self._director.timeline
-        return "" if timeline is None else timeline.experiment.source.summary
+        return self._timeline.experiment.source.summary
 
     def played_by(self, role: str) -> str:
         """Return who plays a role, in words: a person, or the name of a law."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from itertools import combinations
 from math import dist, inf
@@ -14,33 +14,41 @@ from threading import Lock
 import pygame
 
 from mars2d.core.deadline import Deadline, patience
+from mars2d.core.errors import Mars2dError
 from mars2d.core.interrupt import give_up
 from mars2d.output.layers.table import LAYERS, Layers
-from mars2d.output.raster.bars import footer_height
+from mars2d.output.raster.bars import Status, draw_footer, draw_header, footer_height
 from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.layout import Layout
+from mars2d.output.raster.picture import arena_of, summary
 from mars2d.window.run import keys
-from mars2d.window.run.controls import Controls
 from mars2d.window.run.ending import Ending
 from mars2d.window.run.menus import layer_entries
-from mars2d.window.run.mouse import Mouse
+from mars2d.window.run.mouse import Handle, Mouse, Pixel
+from mars2d.window.run.timebar import TimeBar, costs
 from mars2d.window.run.toolbar import Toolbar
 from mars2d.window.screen.display import PICTURES_A_SECOND, Preferences, started_display
 from mars2d.window.screen.looks import Looks
-from mars2d.window.screen.player import Player, time_actions
+from mars2d.window.screen.player import SPEEDS, Player
 from mars2d.window.screen.rest import Rest
 from mars2d.window.screen.saving import Saver
 from mars2d.window.screen.source import Source, Trio
 from mars2d.window.screen.viewpoint import Viewpoint
-from mars2d.window.widgets.actions import action_of, label_of
+from mars2d.window.widgets.actions import Action, action_of, label_of
 from mars2d.window.widgets.help import Help
 from mars2d.window.widgets.menu import Menu
 from mars2d.window.widgets.notes import Notes
 from mars2d.window.widgets.prompt import Prompts
+from mars2d.window.widgets.slider import SpeedSlider
 from mars2d.world.timeline import Timeline
 
+HINTS = (
+    ("Space", "pause"), ("← →", "step"), ("+ \N{MINUS SIGN}", "speed"), ("F1", "help"),
+)  # fmt: skip
 NAME = 20.0
 """How far bodies are apart at the start where their names are drawn at first, points."""
+LEAP = 10
+"""How many steps PgDn and PgUp do."""
 ZOOM = 2.0
 """How far a key zooms, in notches of the wheel."""
 THEIRS = ("sensors", "messages", "neighbours", "theory", "addons")
@@ -52,7 +60,7 @@ class PlayerWindow(ABC):
 
     title: of the window. size: at first, points. stem: the name of saved files, without a number.
 
-    A subclass makes `viewpoint`, `mouse` and `toolbar`.
+    A subclass makes `viewpoint`, `mouse` with the `handles`, and `toolbar`.
     """
 
     viewpoint: Viewpoint
@@ -71,13 +79,18 @@ class PlayerWindow(ABC):
         marked: Source | None = None,
     ) -> None:
         """Prepare; the window opens with `run`. marked: whose events the time bar marks."""
-        self.player, self.size, self.title = Player(source, speed), size, f"{title} - MARS2D"
+        self.player = player = Player(source, speed)
+        self.size, self.title = size, f"{title} - MARS2D"
         self.layers = Layers.of(source.scenario.animation)
         self.help, self.notes, self.menu = Help(), Notes(), Menu()
         self.prompts = Prompts(self.menu)
         self.looks = Looks(preferences, self.notes.say)
         self.saver = Saver(self.notes, stem)
-        self._controls = Controls(self.player, marked or source)
+        self.time_bar, self.slider = TimeBar(self.player, marked or source), SpeedSlider(SPEEDS)
+        self.handles = [
+            Handle(self.time_bar.hit, self.time_bar.go),
+            Handle(self.slider.hit, self._choose_speed),
+        ]
         self._ending = Ending(self.player)
         self._held, self._rest = set[int](), Rest()  # keys; a held one repeats few actions
         self._open = False
@@ -85,7 +98,15 @@ class PlayerWindow(ABC):
         self._limit = Deadline(patience(), give_up, self._calls, self._answer)
         self._screen = Lock()  # held by the thread that draws
         self._actions: dict[str, Callable[[], None]] = {
-            **time_actions(self.player),
+            "pause": player.pause_or_resume,
+            "step": player.step,
+            "back": player.back,
+            "leap": partial(player.step, LEAP),
+            "leap_back": partial(player.back, LEAP),
+            "start": partial(player.go, 0),
+            "newest": lambda: player.go(player.source.newest),
+            "faster": player.faster,
+            "slower": player.slower,
             "contact": lambda: self._to_contact(self.player.next_contact),
             "contact_back": lambda: self._to_contact(self.player.last_contact),
             "restart": self._restart,
@@ -97,7 +118,8 @@ class PlayerWindow(ABC):
             "farther": lambda: self.viewpoint.zoom(-ZOOM, self.layout.plot.center),
             "fit": self._fit,
             **self.looks.actions,
-            "picture": self._save_picture,
+            "picture": lambda: self.saver.picture(self._picture(self._drawn())),
+            "film": self.saver.film_or_not,
             "help": self.help.turn,
             "leave": self._close,
             "escape": self._escape,
@@ -124,18 +146,13 @@ class PlayerWindow(ABC):
                 pygame.display.set_caption(self.title)
                 screen = self.looks.open(self.size)
                 self._open = True
-                self.draw(screen)  # before the first law is asked: it may take long
-                pygame.display.flip()
+                self._show_picture(screen)  # before the first law is asked: it may take long
                 with self._limit:
                     self._loop(screen)
             finally:
                 self.saver.close()
         if self.player.error is not None:
             raise self.player.error
-
-    @abstractmethod
-    def draw(self, surface: pygame.Surface, *, notes: bool = True) -> None:
-        """Draw the window on a surface; the layout follows its size."""
 
     # -- time -----------------------------------------------------------------------------------
 
@@ -153,8 +170,7 @@ class PlayerWindow(ABC):
                 self._rest.stir()
             if not self._rest.resting and (pygame.display.get_active() or self.saver.filming):
                 self._show_picture(pygame.display.get_surface() or screen)
-            if self.player.speed < inf or not self.player.playing:
-                clock.tick(PICTURES_A_SECOND)
+            clock.tick(PICTURES_A_SECOND)
 
     def _pass_time(self, seconds: float) -> None:
         """Advance by seconds of the wall clock."""
@@ -163,7 +179,8 @@ class PlayerWindow(ABC):
     @property
     def _moves(self) -> bool:
         """Whether the next picture may differ from this one though nobody does anything."""
-        return self.player.playing or self.player.busy or len(self.notes) > 0
+        goes_on = self.player.playing or self.player.busy
+        return goes_on or self.saver.filming or len(self.notes) > 0
 
     def _show_picture(self, screen: pygame.Surface) -> None:
         """Draw the window and put it on the screen."""
@@ -174,8 +191,12 @@ class PlayerWindow(ABC):
         self.player.drawing = time.perf_counter() - start
 
     def _paint(self, screen: pygame.Surface) -> None:
-        """Draw the next picture of the loop."""
+        """Draw the next picture of the loop, and add it to the film."""
         self.draw(screen)
+        if self.saver.filming:
+            plot, painter = self.layout.plot, self.looks.painter
+            self.saver.film(self._picture(screen), screen, plot, painter)
+            self._draw_notes(screen)  # which are not part of the film
 
     # -- waiting for a law ----------------------------------------------------------------------
 
@@ -215,6 +236,66 @@ class PlayerWindow(ABC):
 
     # -- drawing --------------------------------------------------------------------------------
 
+    def draw(self, surface: pygame.Surface, *, notes: bool = True) -> None:
+        """Draw the window on a surface; the layout follows its size. notes: and what lies over."""
+        painter, drag, pointer = self.looks.painter, self.mouse.drag, self._pointer
+        layout = self._layout(surface.get_size())
+        painter.ui = layout.ui
+        try:
+            self._draw_picture(surface, layout, self.layers)
+        except Mars2dError as error:  # raised by the drawing of an add-on or a sensor
+            self.player.fail(error)
+            own = self.layers.switched(**dict.fromkeys(THEIRS, False))
+            self._draw_picture(surface, layout, own)
+        if notes and not self.saver.filming:
+            self._draw_notes(surface)
+        frame, (bar, slider) = self.player.frame, self.handles[:2]
+        draw_header(surface, layout, painter, frame, self._status())
+        self.time_bar.draw(surface, layout.timebar, painter, pointer, held=drag is bar)
+        self.slider.draw(
+            surface, layout.slider, painter, self.player.speed, pointer=pointer,
+            held=drag is slider, costs=costs(self.player),
+        )  # fmt: skip
+        banner, words = self._ending.banner(), summary(frame)
+        draw_footer(surface, layout, painter, banner, words, self._hints)
+        if notes:
+            self.toolbar.draw(surface, layout, painter, pointer)
+        if self.help.is_open:
+            self.help.draw(surface, layout, painter, [*self._helps()])
+
+    def _drawn(self) -> pygame.Surface:
+        """Return a picture of the window without notes and menus."""
+        surface = pygame.Surface(self.layout.size, 0, 32)
+        self.draw(surface, notes=False)
+        return surface
+
+    def _picture(self, window: pygame.Surface) -> pygame.Surface:
+        """Return the picture that a drawn window shows, without its own bars."""
+        banner, layout = self._ending.banner(), self._layout(window.get_size())
+        return arena_of(window, layout, self.looks.painter, self.player.frame, banner)
+
+    @abstractmethod
+    def _draw_picture(self, surface: pygame.Surface, layout: Layout, layers: Layers) -> None:
+        """Draw what is between the bars."""
+
+    def _draw_notes(self, surface: pygame.Surface) -> None:
+        plot = self._layout(surface.get_size()).plot  # of all arenas
+        self.notes.draw(surface, plot, self.looks.painter, time.monotonic())
+
+    def _status(self) -> Status:
+        """Return the words beside the time."""
+        return Status(*self.player.status())
+
+    @property
+    def _hints(self) -> Sequence[tuple[str, str]]:
+        """The keys that the footer names."""
+        return HINTS
+
+    def _helps(self) -> Iterator[tuple[str, Sequence[Action]]]:
+        """Yield what the help tells, in groups: the keys that do something here."""
+        for group, each in keys.GROUPS.items():
+            yield group, [key for key in each if key.name in self._actions]
+
     def _layout(self, size: tuple[int, int]) -> Layout:
         """Return the layout on a surface of this size."""
         looks = self.looks
@@ -233,10 +314,6 @@ class PlayerWindow(ABC):
     def _pointer(self) -> tuple[int, int] | None:
         """Where the mouse is, if it is on the open window."""
         return pygame.mouse.get_pos() if self._open and pygame.mouse.get_focused() else None
-
-    def _own_layers(self) -> Layers:
-        """Return the layers that are on, without those that the user's code draws."""
-        return self.layers.switched(**dict.fromkeys(THEIRS, False))
 
     # -- events ---------------------------------------------------------------------------------
 
@@ -274,18 +351,19 @@ class PlayerWindow(ABC):
             "pause": self.player.playing,
             "layers": self.menu.name == "layers",
             "help": self.help.is_open,
+            "film": self.saver.filming,
         }.get(action, self.looks.is_on(action))
 
     # -- commands -------------------------------------------------------------------------------
+
+    def _choose_speed(self, pixel: Pixel) -> None:
+        """Play at the speed at a pixel of the slider."""
+        self.player.set_speed(self.slider.speed_at(pixel[0]))
 
     def _restart(self) -> None:
         """Start again, with the file as it is now."""
         self.notes.clear()
         self.player.restart()
-
-    @abstractmethod
-    def _save_picture(self) -> None:
-        """Save a picture, without the notes."""
 
     def _to_contact(self, go: Callable[[], None]) -> None:
         """Go to a contact; forces are shown there."""

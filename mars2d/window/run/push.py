@@ -1,10 +1,10 @@
-"""A measured push: a constant force on a body for a time, aimed with the mouse or typed."""
+"""How strongly hands pull a body; a measured push, a constant force on it for a time."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
-from math import atan2, cos, degrees, dist, hypot, radians, sin
+from collections.abc import Iterable
+from math import cos, degrees, hypot, radians, sin
 
 from mars2d.core.errors import InputError, shown
 from mars2d.core.plane import Point
@@ -14,18 +14,13 @@ from mars2d.output.raster.camera import Camera
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import Push
 from mars2d.scenario.scenario import Scenario
-from mars2d.window.run.drags import (
-    GOOD,
-    HALO,
-    Act,
-    Drag,
-    draw_ring,
-    draw_words,
-    pull_of,
-    within,
-    world_point,
-)
+from mars2d.window.panels.readout import holding_force
+from mars2d.window.run.marks import HALO, draw_words, world_point
 
+PULL_ACCELERATION = 10.0
+"""How strongly a pull accelerates a body, after it has overcome the resistance, m/s^2."""
+MAX_PULL_SPEED = 5.0
+"""m/s."""
 SECONDS = 0.5
 """How long a push lasts that is aimed with the mouse."""
 REACH = 0.25
@@ -35,40 +30,24 @@ TYPED = re.compile(rf"{NUMBER} ?N?(?: ?for {NUMBER} ?s?)?(?: ?at (-?){NUMBER} ?(
 EXPECTED = "such as 3 N for 0.5 s at 90°"
 
 
+def pull_of(scenario: Scenario, body: int) -> tuple[float, float]:
+    """Return the largest force [N] and speed [m/s] with which the mouse pulls a body.
+
+    They overcome the body's drive or the floor, and cross the workspace in a few seconds.
+    """
+    xmin, xmax, ymin, ymax = scenario.bounds
+    speed = 0.2 * max(xmax - xmin, ymax - ymin)
+    if body < len(scenario.robots):
+        speed = max(speed, 1.5 * scenario.robots[body].drive.max_linear_speed)
+    force = 1.5 * holding_force(scenario, body)
+    force += PULL_ACCELERATION * scenario.bodies[body].inertia.mass
+    return force, min(speed, MAX_PULL_SPEED)
+
+
 def stiffness_of(scenario: Scenario, body: int) -> float:
     """Return the newtons for a metre of arrow."""
     xmin, xmax, ymin, ymax = scenario.bounds
     return pull_of(scenario, body)[0] / (REACH * max(xmax - xmin, ymax - ymin))
-
-
-class Aim(Drag):
-    """Aims a push from the point where a body was gripped to the pointer; the end lets it act."""
-
-    def __init__(
-        self, do: Callable[[Act], bool], scenario: Scenario, body: int, grip: Point
-    ) -> None:
-        super().__init__(do, body)
-        self.grip = within(scenario.bodies[body], grip)
-        self.force: Point = (0.0, 0.0)
-        self._stiffness = stiffness_of(scenario, body)
-
-    def move(self, frame: Frame, point: Point) -> None:
-        """Aim at a point."""
-        start = world_point(frame.body_pose(self.body), self.grip)
-        newtons = float(f"{self._stiffness * dist(start, point):.2g}")
-        angle = atan2(point[1] - start[1], point[0] - start[0])
-        self.force = newtons * cos(angle), newtons * sin(angle)
-
-    def end(self) -> None:
-        """Push."""
-        if any(self.force):
-            self._do(lambda world: world.operator.push(self.body, self.force, SECONDS, self.grip))
-
-    def draw(self, scene: Scene, frame: Frame, camera: Camera) -> None:
-        """Draw the force that it would be."""
-        draw_ring(scene, frame, self.body, GOOD, 2.0)
-        if any(self.force):
-            draw_pushes(scene, frame, [Push(0, self.body, self.grip, self.force, SECONDS)], camera)
 
 
 def draw_pushes(scene: Scene, frame: Frame, pushes: Iterable[Push], camera: Camera) -> None:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from mars2d.core.errors import InputError, Mars2dError
+from mars2d.core.errors import Mars2dError
 from mars2d.core.files import files_read
-from mars2d.scenario.experiment import Experiment
-from mars2d.world.past import Progress
+from mars2d.world.branch import Progress
 from mars2d.world.timeline import Timeline
 
 INTERVAL = 0.3
@@ -17,7 +17,8 @@ INTERVAL = 0.3
 REST = 0.2
 """How long files must be unchanged before they are read, since editors write in steps, seconds."""
 
-Stamp = tuple[int, int]
+Written = dict[Path, int | None]
+"""When files were written, ns; None: one is gone."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,9 +41,12 @@ class Reload:
         """Start to watch the files."""
         self._timeline, self._progress = timeline, progress
         self._next = 0.0  # when to look again
-        self._stamps: dict[Path, Stamp | None] = {}  # as they were seen last
-        self._read_stamps = self._stamps  # as they were read
-        self._adopt()
+        self._seen: Written = {}  # at the last look
+        self._watch(_written(timeline.experiment.source.written))
+
+    def _watch(self, read: Written) -> None:
+        """Watch files from now on; read: when they were written as they were read."""
+        self._experiment, self._read = self._timeline.experiment, read
 
     def poll(self, now: float) -> Reloaded | None:
         """Look at the files if it is time to, and read those that were saved; return the effect.
@@ -50,65 +54,41 @@ class Reload:
         now: a monotonic clock, seconds.
         """
         if self._timeline.experiment is not self._experiment:  # it was restarted
-            self._stamps = {}
-            self._adopt()
+            self._watch(_written(self._timeline.experiment.source.written))
         if now < self._next:
             return None
-        stamps, self._next = {path: _stamp(path) for path in self._read_stamps}, now + INTERVAL
-        if stamps != self._stamps:
-            self._stamps, self._next = stamps, now + REST  # until it has come to rest
+        before, self._seen, self._next = self._seen, _written(self._read), now + INTERVAL
+        changed = [path for path in self._seen if self._seen[path] != self._read[path]]
+        if changed and self._seen != before:
+            self._next = now + REST  # until they have come to rest
             return None
-        changed = [path for path in stamps if stamps[path] != self._read_stamps[path]]
-        self._read_stamps = stamps
-        if gone := [path.name for path in changed if stamps[path] is None]:
+        self._read = self._seen
+        if gone := [path.name for path in changed if self._seen[path] is None]:
             return Reloaded(f"{', '.join(gone)} is gone: the run goes on with what it was")
-        return self._read(", ".join(path.name for path in changed)) if changed else None
+        return self._take(", ".join(path.name for path in changed)) if changed else None
 
     def waits(self) -> bool:
         """Return whether a file was saved that has not been read yet."""
-        return any(_stamp(path) != stamp for path, stamp in self._read_stamps.items())
+        return _written(self._read) != self._read
 
-    def _adopt(self) -> None:
-        """Watch the files of the timeline's experiment."""
-        self._experiment = self._timeline.experiment
-        self._watch(self._experiment.source.written)
-
-    def _watch(self, files: Iterable[Path]) -> None:
-        known = self._stamps
-        self._stamps = {p: known[p] if p in known else _stamp(p) for p in sorted(files)}
-        self._read_stamps = self._stamps
-
-    def _read(self, name: str) -> Reloaded:
+    def _take(self, name: str) -> Reloaded:
         """Open the experiment again, and continue with it; name: of the saved files."""
         with files_read() as files:
             try:
-                return Reloaded(f"{name}: {self._take(self._experiment.reopened())}")
+                experiment = self._experiment.reopened()
+                words = self._timeline.take(experiment, self._progress)
             except Mars2dError as error:
+                self._watch(_written(files) | self._read)
                 goes_on = "" if self._timeline.over else "\nthe old law goes on"
-                problem = Reloaded(f"{error}{goes_on}", error)
-        self._watch({*self._stamps, *files})
-        return problem
-
-    def _take(self, experiment: Experiment) -> str:
-        """Continue with an experiment; return the effect in words."""
-        try:
-            self._timeline.check(experiment)
-        except InputError as error:
-            self._timeline.restart(experiment)
-            words = f"started again: {str(error).partition(': ')[2]}"
-        else:
-            words = self._timeline.take(experiment, self._progress)
-            pairs = zip(self._experiment.scenario.bodies, experiment.scenario.bodies, strict=True)
-            if moved := [str(new.name) for old, new in pairs if old.pose != new.pose]:
-                words = f"R starts {', '.join(moved)} from there; all else is {words}"
-        self._adopt()
-        return words
+                return Reloaded(f"{error}{goes_on}", error)
+        self._watch(dict(experiment.source.written))
+        return Reloaded(f"{name}: {words}")
 
 
-def _stamp(path: Path) -> Stamp | None:
-    """Return the time of writing and the size of a file; None if there is none."""
-    try:
-        status = path.stat()
-    except OSError:
-        return None
-    return status.st_mtime_ns, status.st_size
+def _written(files: Iterable[Path]) -> Written:
+    """Return when files were written, ns; None for one that is gone."""
+    found: Written = dict.fromkeys(files)
+    for path in found:
+        with suppress(OSError):
+            found[path] = path.stat().st_mtime_ns
+    return found

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 
 import pygame
 
@@ -11,8 +11,12 @@ from mars2d.core.plane import grid_step
 from mars2d.output.controls import MARKS
 from mars2d.output.raster.painter import Painter
 from mars2d.output.raster.theme import mixed
-from mars2d.record.marks import MarkKind
+from mars2d.record.marks import MarkKind, meetings
+from mars2d.window.run.mouse import Pixel
+from mars2d.window.screen.player import Player
+from mars2d.window.screen.source import Playback, Source, done_in
 from mars2d.window.widgets.slider import Slider, draw_tooltip
+from mars2d.world.timeline import Timeline
 
 ENDLESS = 1_000_000
 """Experiments of more rows than this are shown only as far as they have gone."""
@@ -20,62 +24,56 @@ MIN_ENDLESS = 10.0
 """The shortest time shown of such an experiment, seconds."""
 LINE = 6.0
 """The height of the line, points."""
+MARK_INTERVAL = 0.25
+"""How often the log of contacts is read for collisions, seconds."""
 
 
-@dataclass(frozen=True, slots=True)
-class TimeState:
-    """Where an experiment is: rows are control steps, from 0.
+class TimeBar(Slider):
+    """Shows how far a player has come along a line, whose values are rows.
 
-    row: the row shown. rows: the newest row simulated so far. last: the row at which the experiment
-    ends. sampling_time: seconds between two rows. marks: rows, in ascending order, at which
-    collisions began, a person intervened, a branch begins, or a law failed. live: whether the run
-    can go on from the row; else it is a recording.
+    marked: the source whose events are marked.
     """
 
-    row: int
-    rows: int
-    last: int
-    sampling_time: float
-    marks: Mapping[MarkKind, Sequence[int]] = field(default_factory=dict)
-    live: bool = True
+    def __init__(self, player: Player, marked: Source) -> None:
+        """Start with nothing drawn."""
+        super().__init__()
+        self._player, self._marked = player, marked
+        self._read: tuple[object, float] = None, 0.0  # the run whose contacts were read, and when
+        self._touched: list[int] = []
 
-    @property
-    def past(self) -> bool:
-        """Whether an earlier row is shown than the newest of a run that goes on."""
-        return self.live and self.row < self.rows
+    def go(self, pixel: Pixel) -> None:
+        """Go to the row at a pixel."""
+        self._player.go(self.row_at(pixel[0]))
+
+    def row_at(self, x: float) -> int:
+        """Return the recorded row nearest to a pixel from the left."""
+        return min(round(self.value_at(x)), self._player.source.newest)
 
     @property
     def extent(self) -> float:
         """The row at the right end: the last row, or a round time ahead in endless experiments."""
-        if self.last <= ENDLESS:
-            return max(self.last, self.rows, 1)
-        time = max(1.02 * self.rows * self.sampling_time, MIN_ENDLESS)
-        return min(grid_step(time) / self.sampling_time, float(self.last))
+        source = self._player.source
+        recorded = isinstance(source, Playback)
+        last, rows = source.newest if recorded else source.scenario.last_iteration, source.newest
+        if last <= ENDLESS:
+            return max(last, rows, 1)
+        step = source.scenario.sampling_time
+        return min(grid_step(max(1.02 * rows * step, MIN_ENDLESS)) / step, float(last))
 
-
-class TimeBar(Slider):
-    """Shows the state of an experiment along a line, and finds the row at a pixel."""
-
-    def __init__(self) -> None:
-        """Start with nothing drawn."""
-        super().__init__()
-        self._state: TimeState | None = None
-
-    def row_at(self, x: float) -> int | None:
-        """Return the recorded row nearest to a pixel from the left.
-
-        None while nothing is drawn, or if there is no room for the line.
-        """
-        if self._state is None or self._line.width <= 0:
-            return None
-        share = (x - self._line.left) / self._line.width
-        row = min(max(share, 0.0), 1.0) * self._state.extent
-        return min(max(round(row), 0), self._state.rows)
-
-    def x_of(self, row: float) -> float:
-        """Return where a row lies, pixels from the left; at the nearer end if it is not shown."""
-        extent = 1.0 if self._state is None else self._state.extent
-        return self._line.left + self._line.width * min(max(row / extent, 0.0), 1.0)
+    def marks(self) -> Mapping[MarkKind, Sequence[int]]:
+        """Return the rows of each kind in ascending order; collisions may lag by a moment."""
+        source, now = self._marked, time.monotonic()
+        run = source.world if isinstance(source, Timeline) else source
+        if run is not self._read[0] or now >= self._read[1] + MARK_INTERVAL:
+            self._read = run, now
+            self._touched = meetings(source.contacts, source.scenario.sampling_time)
+        marks: dict[MarkKind, Sequence[int]] = {"collision": self._touched}
+        marks["hand"] = sorted({each.row for each in done_in(source)})
+        if isinstance(source, Timeline):
+            world = source.world
+            marks["branch"] = sorted({source.branch.common(other) for other in source.branches})
+            marks["error"] = [world.iteration] if world.over and not world.finished else []
+        return marks
 
     # -- drawing --------------------------------------------------------------------------------
 
@@ -84,73 +82,57 @@ class TimeBar(Slider):
         surface: pygame.Surface,
         rect: pygame.Rect,
         painter: Painter,
-        state: TimeState,
+        pointer: Pixel | None = None,
         *,
-        pointer: tuple[int, int] | None = None,
         held: bool = False,
     ) -> None:
         """Draw the bar on a part of a surface.
 
         pointer: where the mouse is. held: whether the mouse drags the handle.
         """
-        ui, theme = painter.ui, painter.theme
+        theme = painter.theme
         surface.fill(theme.bar, rect)
         surface.fill(theme.edge, (rect.left, rect.top, rect.width, 1))
-        self._state = state
-        self._arrange(rect, painter, state)
+        self.high = self.extent
+        self._arrange(surface, rect, painter)
         if self._line.width <= 0:
             return
-        hovered = held or (pointer is not None and self.hit(pointer))
-        self._ends(surface, painter, state)
-        self._band(surface, painter, state)
-        self._marks(surface, painter, state)
-        self._handle(surface, painter, state, lifted=hovered)
-        if hovered and pointer is not None:
-            row = self.row_at(pointer[0])
-            place = round(self.x_of(row or 0)), rect.top - round(4 * ui)
-            draw_tooltip(surface, painter, _time(row or 0, state), midbottom=place)
-
-    def _arrange(self, rect: pygame.Rect, painter: Painter, state: TimeState) -> None:
-        """Place the line between the labels of its ends; leave them out if it would be short."""
-        ui, fonts = painter.ui, painter.fonts
-        pad, gap, size = 20 * ui, 12 * ui, 13 * ui
-        first, last = "0 s", _time(state.extent, state, digits=0)
-        left = rect.left + pad + fonts.width(first, size) + gap
-        right = rect.right - pad - fonts.width(last, size) - gap
-        self._labelled = right - left >= 120 * ui
-        if not self._labelled:
-            left, right = rect.left + pad, rect.right - pad
-        height = round(LINE * ui)
-        line = pygame.Rect(round(left), 0, max(0, round(right - left)), height)
-        line.centery = rect.top + round(0.58 * rect.height)
-        self._place(rect, line, round(8 * ui))
-
-    def _ends(self, surface: pygame.Surface, painter: Painter, state: TimeState) -> None:
-        """Write the times at both ends."""
-        if not self._labelled:
-            return
-        ui, line = painter.ui, self._line
-        gap = round(12 * ui)
-        texts = "0 s", _time(state.extent, state, digits=0)
-        for text, place in zip(texts, ("midright", "midleft"), strict=True):
-            x = line.left - gap if place == "midright" else line.right + gap
-            image = painter.fonts.render(text, 13 * ui, painter.theme.muted)
-            surface.blit(image, image.get_rect(**{place: (x, line.centery)}))
-
-    def _band(self, surface: pygame.Surface, painter: Painter, state: TimeState) -> None:
-        """Draw the line, over it the recorded part, and over that the part before the handle."""
-        theme = painter.theme
+        source = self._player.source
         ahead = mixed(theme.selected, theme.bar, 0.42)
         for row, color in (
-            (state.extent, theme.track),
-            (state.rows, ahead),
-            (state.row, theme.selected),
-        ):
+            (self.high, theme.track), (source.newest, ahead), (source.row, theme.selected),
+        ):  # fmt: skip
             self._fill(surface, painter, round(self.x_of(row)), color)
+        self._draw_marks(surface, painter)
+        hovered = held or (pointer is not None and self.hit(pointer))
+        color = theme.past.ink if self._player.past else theme.selected
+        self._draw_handle(surface, painter, source.row, theme.bar, color, 9.0 if hovered else 7.0)
+        if hovered and pointer is not None:
+            row = self.row_at(pointer[0])
+            place = round(self.x_of(row)), rect.top - round(4 * painter.ui)
+            draw_tooltip(surface, painter, self._time(row), midbottom=place)
 
-    def _marks(self, surface: pygame.Surface, painter: Painter, state: TimeState) -> None:
+    def _arrange(self, surface: pygame.Surface, rect: pygame.Rect, painter: Painter) -> None:
+        """Place the line between the times of its ends; leave them out if it would be short."""
+        ui, fonts = painter.ui, painter.fonts
+        pad, gap, size = 20 * ui, 12 * ui, 13 * ui
+        first, last = "0 s", self._time(self.high, digits=0)
+        left = rect.left + pad + fonts.width(first, size) + gap
+        right = rect.right - pad - fonts.width(last, size) - gap
+        labelled = right - left >= 120 * ui
+        if not labelled:
+            left, right = rect.left + pad, rect.right - pad
+        line = pygame.Rect(round(left), 0, max(0, round(right - left)), round(LINE * ui))
+        line.centery = rect.top + round(0.58 * rect.height)
+        self._place(rect, line, round(8 * ui))
+        if labelled:
+            ink, gap, y = painter.theme.muted, round(gap), line.centery
+            painter.write(surface, first, size, ink, midright=(line.left - gap, y))
+            painter.write(surface, last, size, ink, midleft=(line.right + gap, y))
+
+    def _draw_marks(self, surface: pygame.Surface, painter: Painter) -> None:
         """Draw a tick per event above the line, below it, or both."""
-        ui, line = painter.ui, self._line
+        ui, line, rows = painter.ui, self._line, self.marks()
         thick, long = max(1, round(1.5 * ui)), round(6 * ui)
         above, below = line.top - round(2 * ui) - long, line.bottom + round(2 * ui)
         for kind, mark in MARKS.items():
@@ -158,25 +140,27 @@ class TimeBar(Slider):
             height = (below if mark.below else above) + long - top
             wide = thick * (2 if kind == "error" else 1)
             color = mark.color(painter.theme)
-            for x in {round(self.x_of(row)) for row in state.marks.get(kind, ())}:
+            for x in {round(self.x_of(row)) for row in rows.get(kind, ())}:
                 surface.fill(color, (x - wide // 2, top, wide, height))
 
-    def _handle(
-        self, surface: pygame.Surface, painter: Painter, state: TimeState, *, lifted: bool
-    ) -> None:
-        """Draw the handle, larger while the mouse is over the bar."""
-        color = painter.theme.past.ink if state.past else painter.theme.selected
-        radius = 9.0 if lifted else 7.0
-        self._draw_handle(surface, painter, state.row, painter.theme.bar, color, radius)
+    def _time(self, row: float, digits: int | None = None) -> str:
+        """Return the time of a row in words, with enough decimals to tell two rows apart."""
+        step = self._player.source.scenario.sampling_time
+        if digits is None:
+            digits = next((k for k in (0, 1, 2) if abs(round(step, k) - step) < 1e-9), 3)
+        seconds = row * step
+        whole = digits or abs(seconds - round(seconds)) <= 1e-6
+        return f"{seconds:.{digits}f} s" if whole else f"{seconds:.3g} s"
 
 
-def _time(row: float, state: TimeState, digits: int | None = None) -> str:
-    """Return the time of a row in words, with enough decimals to tell two rows apart."""
-    step = state.sampling_time
-    if digits is None:
-        digits = next((k for k in (0, 1, 2) if abs(round(step, k) - step) < 1e-9), 3)
-    seconds = row * step
-    text = f"{seconds:.{digits}f}"
-    if digits == 0 and abs(seconds - round(seconds)) > 1e-6:
-        text = f"{seconds:.3g}"
-    return f"{text} s"
+def costs(player: Player) -> str:
+    """Return the time that parts of a control step take on average, and the last picture."""
+    source = player.source
+    if not isinstance(source, Timeline) or not source.newest:
+        return ""
+    spent = source.world.simulation.seconds
+    times = {name: seconds / source.newest for name, seconds in spent.items()}
+    unit, scale, digits = ("ms", 1e3, 1) if sum(times.values()) >= 1e-3 else ("µs", 1e6, 0)
+    times["picture"] = player.drawing
+    parts = ", ".join(f"{name} {scale * each:.{digits}f}" for name, each in times.items())
+    return f"{unit}: {parts}"

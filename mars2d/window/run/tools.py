@@ -13,13 +13,13 @@ from mars2d.output.raster.camera import Camera
 from mars2d.output.raster.painter import Painter
 from mars2d.record.frame import Frame
 from mars2d.window.run.director import Director
-from mars2d.window.run.drags import GOOD, HALO, LABEL
+from mars2d.window.run.marks import GOOD, HALO, draw_dot, draw_words
 from mars2d.window.run.push import EXPECTED, pushed, suggested
 from mars2d.window.screen.picking import Selection
 from mars2d.window.screen.player import Player
 from mars2d.window.widgets.notes import Notes
 from mars2d.window.widgets.prompt import Answer, Prompts
-from mars2d.world.operator import forceless
+from mars2d.window.widgets.slider import draw_tooltip
 
 End = Point | int
 """A point of the floor [m], or a body, with which the ruler's end moves."""
@@ -53,16 +53,15 @@ class Ruler:
         places = [frame.body_pose(e)[:2] if isinstance(e, int) else e for e in self.ends]
         if len(places) == 1 and pointer is not None:
             places.append(pointer)
-        for x, y in places:
-            scene.circle((x, y), 0.0, fill=GOOD, stroke=HALO, width=1.5, pixels=3.5)
+        for place in places:
+            draw_dot(scene, place, GOOD)
         if len(places) == 2:
             (x, y), (u, v) = places
             scene.line(places, stroke=HALO, width=4.0)
             scene.line(places, stroke=GOOD, width=2.0)
             way = f"{dist(*places):.3f} m at {degrees(atan2(v - y, u - x)):.1f}°"
-            middle = (x + u) / 2, (y + v) / 2 + 8 / camera.scale
-            text = way.replace("-", "\N{MINUS SIGN}")
-            scene.text(middle, text, color=GOOD, size=LABEL, anchor="above", halo=HALO)
+            text, middle = way.replace("-", "\N{MINUS SIGN}"), ((x + u) / 2, (y + v) / 2)
+            draw_words(scene, camera, middle, text, GOOD)
 
 
 class Stopwatch:
@@ -88,13 +87,9 @@ class Stopwatch:
         self, surface: pygame.Surface, room: pygame.Rect, painter: Painter, now: float
     ) -> None:
         """Draw it at the upper edge of the room of the arena."""
-        words, ui = self.words(now), painter.ui
-        if not words:
-            return
-        plate = pygame.Rect(0, 0, painter.fonts.width(words, 14 * ui) + 28 * ui, 30 * ui)
-        plate.midtop = room.centerx, room.top + round(6 * ui)
-        painter.panel(surface, plate, painter.theme.plate, 8 * ui, painter.theme.edge)
-        painter.write(surface, words, 14 * ui, painter.theme.ink, center=plate.center)
+        if words := self.words(now):
+            at = room.centerx, room.top + round(6 * painter.ui)
+            draw_tooltip(surface, painter, words, midtop=at)
 
 
 class Tools:
@@ -142,8 +137,6 @@ class Tools:
         body, frame = self._selection.body, self._player.frame
         if body is None:
             self._notes.say("Tab selects what is pushed", "warning")
-        elif fault := forceless(frame.scenario, body):
-            self._notes.say(fault, "warning")
         else:
 
             def push(text: str) -> None:

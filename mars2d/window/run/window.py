@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
+from operator import is_
 from typing import TYPE_CHECKING
 
 import pygame
 
-from mars2d.core.errors import Mars2dError
 from mars2d.core.plane import Point
 from mars2d.output.layers.table import Layers
-from mars2d.output.raster.bars import Status, draw_footer, draw_header
-from mars2d.output.raster.picture import arena_of, summary
-from mars2d.record.frame import Frame
+from mars2d.output.raster.bars import Status
+from mars2d.output.raster.layout import Layout
 from mars2d.scenario.examples import experiment_name
 from mars2d.scenario.scenario import Scenario
 from mars2d.window.panels.panels import Panels
@@ -22,12 +21,8 @@ from mars2d.window.run import keys
 from mars2d.window.run.arena import Arena
 from mars2d.window.run.countdown import draw_countdown, entries_of_roles
 from mars2d.window.run.director import Director
-from mars2d.window.run.grab import CLICK, Grab
-from mars2d.window.run.menus import (
-    entries_of_body,
-    entries_of_place,
-    entries_of_scopes,
-)
+from mars2d.window.run.grab import Grab
+from mars2d.window.run.menus import Offers
 from mars2d.window.run.mouse import Pixel
 from mars2d.window.run.play import Play
 from mars2d.window.run.player_window import PlayerWindow
@@ -39,7 +34,8 @@ from mars2d.window.screen.display import Preferences
 from mars2d.window.screen.picking import Selection, body_at, next_body
 from mars2d.window.screen.source import Playback, Source
 from mars2d.window.screen.viewpoint import Viewpoint
-from mars2d.window.widgets.menu import Entry
+from mars2d.window.widgets.actions import Action
+from mars2d.window.widgets.notes import Notes
 from mars2d.window.widgets.prompt import Answer
 from mars2d.world.timeline import Timeline
 
@@ -48,9 +44,6 @@ if TYPE_CHECKING:
 
 CHANGED = "This run was changed by hand, and is not saved."
 TYPING = (pygame.KEYDOWN, pygame.TEXTINPUT, pygame.TEXTEDITING)
-USUAL = (
-    ("Space", "pause"), ("← →", "step"), ("+ \N{MINUS SIGN}", "speed"), ("F1", "help"),
-)  # fmt: skip
 BY_HAND = (("↑ ↓ ← →", "drive"), ("Shift", "slowly"), ("H", "let go"), ("F1", "help"))
 """The keys that the footer names; a game's panel has its own."""
 
@@ -90,35 +83,34 @@ class Window(PlayerWindow):
         bounds = source.bounds if isinstance(source, Playback) else None
         self.viewpoint = Viewpoint(source.scenario, self._layout(size), bounds)
         self._leave_out_names(self.layout.ui)
-        self.mouse = self.grab = Grab(
-            self.player, self.viewpoint, self._controls.handles, self._place,
-            self.director.change, partial(self.notes.say, kind="warning"),
-            {pygame.BUTTON_LEFT: self._select_at, pygame.BUTTON_RIGHT: self._offer},
-        )  # fmt: skip
-        self._arena = Arena(painter, source, self.grab, self.selection, self.tools.ruler)
+        clicks = {pygame.BUTTON_LEFT: self._select_at, pygame.BUTTON_RIGHT: self._offer}
+        change, view = self.director.change, self.viewpoint
+        self.mouse = self.grab = Grab(self.player, view, self.handles, self._place, change, clicks)
+        self._arena = Arena(source, self.grab, self.selection, self.tools, self.dock)
         timeline = self.director.timeline
         self._reload = None if timeline is None else Reload(timeline, self._show_way_back)
-        self._seen: tuple[object, ...] = ()  # the scenario and the experiment
+        self._seen: tuple[object, object] = (None, None)  # the scenario and the experiment
         self._cast = _cast(source.scenario)
-        self._actions |= {
+        acts, scopes = self._actions, self.dock.scopes
+        self._offers = Offers(self.player, self.selection, self.tools, scopes, acts)
+        acts |= {
             "contacts": self._stop_or_go_on,
             "source": lambda: self._ending.open_source(self.notes),
             "within": partial(self._step_within, 1),
             "within_back": partial(self._step_within, -1),
-            "branch": self._without_drag(self.director.other_branch),
-            "undo": self._without_drag(self._undo),
-            "scopes": lambda: self.toolbar.open("scopes", self._plots),
+            "branch": self._other_branch,
+            "undo": self._undo,
+            "scopes": lambda: self.toolbar.open("scopes", self._offers.plots),
             "select": lambda: self.select(next_body(self.player.frame, self.selected)),
             "follow": self._follow_or_not,
-            "offer": self._offer_by_key,
+            "offer": self._offer_at,
             "drive": self._drive_or_not,
             "edit": self._open_editor,
-            "film": self.saver.film_or_not,
             **self.tools.actions,
             **self.dock.actions,
         }
-        acts = {name: act for name, act in self._actions.items() if name not in self.dock.lacking}
-        self.toolbar = Toolbar(acts, self._is_on, self.menu, live=timeline is not None)
+        there = {name: act for name, act in acts.items() if name not in self.dock.lacking}
+        self.toolbar = Toolbar(there, self._is_on, self.menu, live=timeline is not None)
 
     @property
     def selected(self) -> int | None:
@@ -163,9 +155,8 @@ class Window(PlayerWindow):
     def _moves(self) -> bool:
         counts = self.game is not None and self.game.counting > 0
         drives = self.director.drives and self.game is None
-        acts = self.grab.busy or self.saver.filming or self.editor is not None
-        follows = self.viewpoint.following is not None
-        return counts or drives or acts or follows or super()._moves
+        acts = self.grab.busy or self.editor is not None
+        return counts or drives or acts or self.viewpoint.following or super()._moves
 
     def _pass_time(self, seconds: float) -> None:
         if self.editor is not None:
@@ -178,7 +169,7 @@ class Window(PlayerWindow):
             if not (self.game.seats or self.menu.is_open):
                 self._offer_roles(self.game)
         self.director.steer(seconds)
-        self.grab.tick()
+        self.grab.tick(self._pointer)
         self.dock.parameters.tick()
         self.player.pass_time(seconds)
         if self.dock.predictions.look(playing=self.player.playing):
@@ -204,16 +195,16 @@ class Window(PlayerWindow):
         """Where the run has become another, release and deselect bodies that it may not have."""
         scenario, timeline = self.player.source.scenario, self.director.timeline
         now = scenario, None if timeline is None else timeline.experiment
-        if all(one is other for one, other in zip(now, self._seen, strict=False)) and self._seen:
+        if all(map(is_, now, self._seen)):
             return
         self._seen = now
         self.dock.scopes.meet(scenario)
         if self._cast != (cast := _cast(scenario)):
-            self._cast, self.viewpoint.following = cast, None
+            self._cast, self.viewpoint.following = cast, False
             self.select(None)
             self.director.release()
-            self.grab.cancel()
-            self.grab.leave()
+            self.grab.let_go()
+            self.grab.over = None
 
     # -- drawing --------------------------------------------------------------------------------
 
@@ -221,62 +212,38 @@ class Window(PlayerWindow):
         """Draw the window or its editor on a surface; the layout follows its size."""
         if self.editor is not None:
             self.editor.draw(surface)
-            return
-        try:
-            self._draw(surface, self.layers, notes=notes)
-        except Mars2dError as error:  # raised by the drawing of an add-on or a sensor
-            self.player.fail(error)
-            self._draw(surface, self._own_layers(), notes=notes)
+        else:
+            super().draw(surface, notes=notes)
 
-    def _draw(self, surface: pygame.Surface, layers: Layers, *, notes: bool) -> None:
-        frame, painter = self.grab.shown(self.player.frame), self.looks.painter
-        layout = self._layout(surface.get_size())
-        painter.ui, self.grab.click = layout.ui, CLICK * layout.ui
-        self.dock.inspector.frames = self.director.drives
-        bounds = self.viewpoint.bounds or frame.scenario.bounds
-        room = self.dock.arrange(layout, frame, bounds)
-        self.viewpoint.arrange(layout, frame.scenario, room)
-        pointer = None if self._pointer is None else self._point_at(self._pointer)
-        self._arena.draw(surface, frame, self.viewpoint, layers, self.dock.free, pointer)
-        self._draw_dock(surface, frame)
-        if notes and not self.saver.filming:
-            self._draw_notes(surface)
-        self.tools.stopwatch.draw(surface, self.viewpoint.room, painter, frame.time)
-        draw_header(surface, layout, painter, frame, self._status())
-        self._controls.draw(surface, layout, painter, self._pointer, self.mouse.drags)
-        hints = () if self.game is not None else BY_HAND if self.director.drives else USUAL
-        if self.director.drives and not self.player.playing:
-            hints = (("Space", "go on"), *hints)
-        draw_footer(surface, layout, painter, self._ending.banner(), summary(frame), hints)
-        if notes:
-            if self.menu.name == "roles":
-                plate = pygame.Rect((0, 0), self.menu.size(painter))
-                plate.center = self.viewpoint.room.center
-                self.menu.corner = plate.topleft
-            if self.game is not None and self.game.counting:
-                draw_countdown(surface, self.viewpoint.room, painter, self.game.counting)
-            self.toolbar.draw(surface, layout, painter, self._pointer)
-        self.help.draw(surface, layout, painter, keys.GROUPS.items())
+    def _draw_picture(self, surface: pygame.Surface, layout: Layout, layers: Layers) -> None:
+        frame, drives = self.grab.shown(self.player.frame), self.director.drives
+        self._arena.draw(surface, layout, frame, layers, self._pointer, drives=drives)
+        room, painter = self.viewpoint.room, self.looks.painter
+        if self.game is not None and self.game.counting:
+            draw_countdown(surface, room, painter, self.game.counting)
+        if self.menu.name == "roles":
+            plate = pygame.Rect((0, 0), self.menu.size(painter))
+            plate.center = room.center
+            self.menu.corner = plate.topleft
+
+    @property
+    def _hints(self) -> Sequence[tuple[str, str]]:
+        if self.game is not None:
+            keys_of = [(" ".join(seat.keys), seat.role or "drive") for seat in self.game.seats]
+            return [*keys_of, ("Space", "pause"), ("F1", "help")]
+        if not self.director.drives:
+            return super()._hints
+        return BY_HAND if self.player.playing else (("Space", "go on"), *BY_HAND)
+
+    def _helps(self) -> Iterator[tuple[str, Sequence[Action]]]:
+        yield from super()._helps()
+        yield "Mouse", keys.MOUSE
 
     def _draw_notes(self, surface: pygame.Surface) -> None:
-        off, painter = self._selected_pixel(self.player.frame), self.looks.painter
+        off, painter = self._arena.selected_pixel(self.player.frame), self.looks.painter
         plot, now = self.layout.plot, time.monotonic()
-        self.notes.draw(surface, plot, painter, now, self.dock.free, off)
-
-    def _draw_dock(self, surface: pygame.Surface, frame: Frame) -> None:
-        """Draw the panels, away from the selected body where the arena makes no room for them."""
-        beside = self.viewpoint.makes_room and self.dock.beside
-        spot = None if beside else self._selected_pixel(frame)
-        drives = self.director.drives and self.viewpoint.following is None
-        free = self.viewpoint.seen if drives else None
-        self.dock.draw(surface, frame, spot, self._pointer, free=free)
-
-    def _selected_pixel(self, frame: Frame) -> tuple[float, float] | None:
-        """Return where the selected body is drawn, if one is selected."""
-        if self.selected is None:
-            return None
-        ((x, y),) = self.camera.to_pixels([frame.body_pose(self.selected)[:2]]).tolist()
-        return x, y
+        if self.editor is None:
+            self.notes.draw(surface, plot, painter, now, self.dock.free, off)
 
     def _status(self) -> Status:
         text, kind = self.player.status()
@@ -289,32 +256,13 @@ class Window(PlayerWindow):
             return Status(f"{text}  {self.director.status}", "hand")
         return Status(text, kind)
 
-    def _paint(self, screen: pygame.Surface) -> None:
-        """Draw the next picture of the loop, and add it to the film."""
-        self.draw(screen)
-        if not self.saver.filming:
-            return
-        whole = self.editor is not None
-        picture = screen if whole else self._picture(screen)
-        self.saver.film(picture, screen, self.layout.plot, self.looks.painter)
-        if not whole:  # notes are not part of the film
-            self._draw_notes(screen)
-
     def arena(self) -> pygame.Surface:
         """Return a picture of the arena alone, without any bars."""
         self.editor = None
         return self._drawn().subsurface(self.layout.plot)
 
-    def _drawn(self) -> pygame.Surface:
-        """Return a picture of the window without notes and menus."""
-        surface = pygame.Surface(self.layout.size, 0, 32)
-        self.draw(surface, notes=False)
-        return surface
-
     def _picture(self, window: pygame.Surface) -> pygame.Surface:
-        """Return the picture that a drawn window shows, without its own bars."""
-        banner, frame = self._ending.banner(), self.player.frame
-        return arena_of(window, self.layout, self.looks.painter, frame, banner)
+        return window if self.editor is not None else super()._picture(window)
 
     # -- events ---------------------------------------------------------------------------------
 
@@ -349,17 +297,11 @@ class Window(PlayerWindow):
         over = self.help.is_open or self.dock.covers(pixel) or self.toolbar.covers(pixel)
         return pixel if self.layout.plot.collidepoint(pixel) and not over else None
 
-    def _point_at(self, pixel: Pixel) -> Point:
-        """Return the point [m] at a pixel."""
-        ((x, y),) = self.camera.to_world([pixel]).tolist()
-        return x, y
-
     def _is_on(self, action: str) -> bool:
         return self.dock.is_on(action) or {
             "contacts": self.player.stops,
             "drive": self.director.drives,
-            "follow": self.viewpoint.following is not None,
-            "film": self.saver.filming,
+            "follow": self.viewpoint.following,
         }.get(action, super()._is_on(action))
 
     # -- selecting, and menus -------------------------------------------------------------------
@@ -372,51 +314,38 @@ class Window(PlayerWindow):
         else:
             self.select(body)
 
-    def _offer_by_key(self) -> None:
-        """Open the menu of the selected body, or of the middle of the floor."""
-        frame, body = self.player.frame, self.selected
-        middle = self._point_at(self.viewpoint.room.center)
-        self._offer_at(middle if body is None else frame.body_pose(body)[:2])
-
     def _offer(self, point: Point) -> None:
         """Select the thing at a point [m] of the picture, and open its menu."""
         self.tools.ruler.end()
         self._select_at(point)
         self._offer_at(point)
 
-    def _offer_at(self, point: Point) -> None:
-        """Open the menu of what can be done with what is selected, or at a point [m]."""
+    def _offer_at(self, point: Point | None = None) -> None:
+        """Open the menu of what is selected, or of a point [m] of the floor, else of its middle."""
+        if point is None:
+            middle = self.viewpoint.point_at(self.viewpoint.room.center)
+            body, frame = self.selected, self.player.frame
+            point = middle if body is None else frame.body_pose(body)[:2]
         ((x, y),) = self.camera.to_pixels([point]).astype(int).tolist()
-        frame, body, live = self.player.frame, self.selected, self.director.timeline is not None
-        if body is None:
-            entries = entries_of_place(point, self._actions, self.tools.measure_from, live=live)
-        else:
-            entries = entries_of_body(frame, body, self._actions, live=live)
+        entries = self._offers.at(point)
         self.menu.open("offer", lambda: entries, (x, y))
-
-    def _plots(self) -> list[Entry]:
-        """Return the entries of the menu of plots."""
-        return entries_of_scopes(self.player.frame, self.selected, self.dock.scopes, self._actions)
 
     # -- commands -------------------------------------------------------------------------------
 
-    def _without_drag(self, act: Callable[[], None]) -> Callable[[], None]:
-        """Return a command before which a drag of a body ends."""
-
-        def acts() -> None:
-            self.grab.cancel()
-            act()
-
-        return acts
+    def _other_branch(self) -> None:
+        """Show the branch that was run before a change."""
+        self.grab.let_go()
+        self.director.other_branch()
 
     def _undo(self) -> None:
         """Undo what was done by hand; people who play go on from there."""
+        self.grab.let_go()
         self.director.undo()
         if self.game is not None and self.game.seats:
             self.game.begin()
 
     def _restart(self) -> None:
-        self.grab.cancel()
+        self.grab.let_go()
         super()._restart()
         if self.game is not None:
             self.dock.named("score").open()
@@ -446,7 +375,7 @@ class Window(PlayerWindow):
     def _follow_or_not(self) -> None:
         """Let the camera follow the selected body or all robots, or stop following."""
         self.viewpoint.follow(self.selected)
-        if self.viewpoint.following is None:
+        if not self.viewpoint.following:
             self.notes.say("the camera stays where it is; F shows all")
             return
         bodies = self.player.source.scenario.bodies
@@ -466,7 +395,7 @@ class Window(PlayerWindow):
     def _end_activity(self) -> bool:
         """End a drag, measuring or driving, select nothing, pause a game; return whether it did."""
         if self.grab.busy:
-            self.grab.cancel()
+            self.grab.let_go()
         elif self.tools.ruler.on:
             self.tools.ruler.end()
         elif self.director.drives and self.game is None:
@@ -481,10 +410,6 @@ class Window(PlayerWindow):
         else:
             return False
         return True
-
-    def _save_picture(self) -> None:
-        """Save a picture of the arena, without the notes."""
-        self.saver.picture(self._picture(self._drawn()))
 
     def _close(self) -> None:
         """Close the window; if hands did something that would be lost, ask first, once."""
@@ -506,7 +431,7 @@ class Window(PlayerWindow):
 
     def _open_editor(self) -> None:
         """Open the editor on the scenario as it is now."""
-        self.grab.let_go()
+        self.grab.cancel()
         self.editor = self.director.editor(self.looks)
         if self.editor is not None:
             self.editor.viewpoint.look_as(self.viewpoint)
@@ -521,10 +446,11 @@ class Window(PlayerWindow):
 
     def _show_way_back(self, share: float) -> bool:  # noqa: ARG002
         """Say that a world goes back, which takes a while; return whether it may."""
-        self.notes.say(f"going back to {self.player.frame.time:.1f} s; Esc stays here")
-        surface = pygame.display.get_surface()
+        surface, way = pygame.display.get_surface(), Notes()
         if surface is not None:
-            self.draw(surface)
+            self.draw(surface, notes=False)
+            way.say(f"going back to {self.player.frame.time:.1f} s; Esc stays here")
+            way.draw(surface, self.layout.plot, self.looks.painter, time.monotonic())
             pygame.display.flip()
         leaving = pygame.event.get(pygame.QUIT)
         self._open = self._open and not leaving

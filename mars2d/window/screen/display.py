@@ -45,25 +45,18 @@ class Preferences(Description):
 
 def display_available() -> bool:
     """Return whether a window can be opened on a real screen."""
-    wanted = os.environ.get("SDL_VIDEODRIVER") or os.environ.get("SDL_VIDEO_DRIVER") or ""
-    if wanted.lower() in NOT_REAL:
-        return False
-    if not has_pygame():
+    named = os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")
+    if not has_pygame() or (sys.platform == "linux" and not named):
         return False
     import pygame
 
-    if pygame.display.get_init():
-        return pygame.display.get_driver() not in NOT_REAL
-    if sys.platform in ("win32", "darwin", "cygwin", "emscripten"):
-        return True
-    if not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
-        return False
-    # The variable may name a screen that is gone, for example after a lost ssh connection: try.
+    ours = not pygame.display.get_init()
     try:
-        open_display()
+        open_display()  # what is named may be gone, for example after a lost ssh connection
     except InputError:
         return False
-    _tried.append(True)  # the window that follows takes it over: to start it twice takes long
+    if ours:
+        _tried.append(True)  # the window takes it over: to start it twice takes long
     return True
 
 

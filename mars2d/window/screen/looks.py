@@ -49,12 +49,13 @@ class Looks:
         return action == "dark" and self.painter.theme.dark
 
     def open(self, size: tuple[int, int]) -> pygame.Surface:
-        """Open a window of `size` points, and return its surface.
+        """Open a window of `size` points, and return its surface; one that is open keeps its size.
 
         Raises InputError if the window can't be opened.
         """
-        self.scale = desktop_scale()
-        return open_window(opening_size(size, self.scale), self.painter)
+        self.scale, now = desktop_scale(), pygame.display.get_surface()
+        pixels = opening_size(size, self.scale) if now is None else now.get_size()
+        return open_window(pixels, self.painter)
 
     def layout(
         self, size: tuple[int, int], footer_height: float = FOOTER, *, controls: bool = False

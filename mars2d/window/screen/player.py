@@ -6,7 +6,6 @@ import time
 from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from functools import partial
 from math import inf
 from typing import Literal
 
@@ -20,9 +19,6 @@ from mars2d.window.widgets.slider import BEHIND, times
 Kind = Literal["running", "waiting", "past", "error"]
 Status = tuple[str, Kind]
 """The state of the clock in words, and its kind."""
-
-LEAP = 10
-"""How many steps PgDn and PgUp do."""
 
 SPEEDS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0)
 """The rungs of + and -; above them is "max"."""
@@ -243,19 +239,18 @@ class Player:
 
     def set_speed(self, speed: float) -> None:
         """Play at a factor of real time; inf: as fast as possible."""
-        self.speed = speed
-        self._pace.clear()
+        if speed != self.speed:
+            self.speed = speed
+            self._pace.clear()
 
     def faster(self) -> None:
         """Go one rung up; from manual mode to the lowest rung."""
-        higher = [rung for rung in SPEEDS if rung > self.speed * (1 + 1e-9)]
-        self.set_speed(higher[0] if higher else inf)
+        self.set_speed(next((rung for rung in SPEEDS if rung > self.speed * (1 + 1e-9)), inf))
 
     def slower(self) -> None:
         """Go one rung down, not below the lowest."""
-        lower = [rung for rung in SPEEDS if rung < self.speed * (1 - 1e-9)]
-        if lower:
-            self.set_speed(lower[-1])
+        lower = (rung for rung in reversed(SPEEDS) if rung < self.speed * (1 - 1e-9))
+        self.set_speed(next(lower, self.speed))
 
     def restart(self) -> None:
         """Start again; a law that has failed is run again."""
@@ -327,18 +322,3 @@ class Player:
             self.error = error
         self._met = self.stops and self._meets()
         return not self.failed
-
-
-def time_actions(player: Player) -> dict[str, Callable[[], None]]:
-    """Return the actions of the keys and buttons of time, by name."""
-    return {
-        "pause": player.pause_or_resume,
-        "step": player.step,
-        "back": player.back,
-        "leap": partial(player.step, LEAP),
-        "leap_back": partial(player.back, LEAP),
-        "start": partial(player.go, 0),
-        "newest": lambda: player.go(player.source.newest),
-        "faster": player.faster,
-        "slower": player.slower,
-    }

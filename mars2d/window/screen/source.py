@@ -24,21 +24,21 @@ class Playback:
     """A recorded run, row by row."""
 
     def __init__(self, record: Record) -> None:
-        self.record = record
+        self.recorded = record
         self.row = 0
 
     @property
     def scenario(self) -> Scenario:
         """What was simulated."""
-        return self.record.scenario_at(self.row)
+        return self.recorded.scenario_at(self.row)
 
     @cached_property
     def bounds(self) -> tuple[float, float, float, float]:
         """(xmin, xmax, ymin, ymax) of the workspace [m]; without one, of all ways of the bodies."""
-        scenario = self.record.scenario
+        scenario = self.recorded.scenario
         if scenario.workspace is not None:
             return scenario.bounds
-        poses = self.record.all_poses
+        poses = self.recorded.all_poses
         low, high = (find(poses[:, :2], axis=(0, 2)) for find in (np.nanmin, np.nanmax))
         xmin, xmax, ymin, ymax = scenario.bounds
         return (
@@ -47,24 +47,19 @@ class Playback:
         )  # fmt: skip
 
     @property
-    def recorded(self) -> Record:
-        """The record."""
-        return self.record
-
-    @property
     def contacts(self) -> NDArray[np.void]:
         """The contacts of all rows."""
-        return self.record.contacts
+        return self.recorded.contacts
 
     @property
     def frame(self) -> Frame:
         """The present row."""
-        return self.record.frame(self.row)
+        return self.recorded.frame(self.row)
 
     @property
     def newest(self) -> int:
         """The last row."""
-        return len(self.record) - 1
+        return len(self.recorded) - 1
 
     @property
     def over(self) -> bool:
@@ -212,4 +207,4 @@ def done_in(source: Source) -> Sequence[Intervention]:
     """Return what was done by hand in a run."""
     if isinstance(source, Timeline):
         return source.world.operator.log
-    return source.record.interventions if isinstance(source, Playback) else ()
+    return source.recorded.interventions if isinstance(source, Playback) else ()

@@ -11,6 +11,7 @@ import pygame
 
 from mars2d.output.raster.painter import Painter
 from mars2d.window.widgets.actions import Action
+from mars2d.window.widgets.rows import Pixel
 from mars2d.window.widgets.slider import draw_tooltip
 
 SIDE, GAP = 36.0, 2.0
@@ -45,17 +46,14 @@ class Buttons:
         self.places: dict[str, pygame.Rect] = {}
         self._upright = self._labelled = False
 
-    def at(self, pixel: tuple[int, int]) -> str | None:
+    def at(self, pixel: Pixel) -> str | None:
         """Return the name of the button at a pixel, if there is one."""
-        return next(
-            (name for name, place in self.places.items() if place.collidepoint(pixel)), None
-        )
+        return next((name for name, at in self.places.items() if at.collidepoint(pixel)), None)
 
     def handle(self, event: pygame.Event) -> bool:
         """Handle a press of the left mouse button on a button; return whether there was one."""
-        if event.type != pygame.MOUSEBUTTONDOWN or event.button != pygame.BUTTON_LEFT:
-            return False
-        name = self.at(event.pos)
+        pressed = event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT
+        name = self.at(event.pos) if pressed else None
         act = None if name is None else self._actions[name].act
         if act is not None:
             act()
@@ -66,7 +64,7 @@ class Buttons:
         surface: pygame.Surface,
         area: pygame.Rect,
         painter: Painter,
-        pointer: tuple[int, int] | None,
+        pointer: Pixel | None,
     ) -> None:
         """Draw all buttons along the longer side of an area."""
         self._arrange(area, painter.ui)
@@ -90,9 +88,7 @@ class Buttons:
                 at, key = place.move(-3, -2).bottomright, action.labels[0]
                 painter.write(surface, key, size, color, bold=True, bottomright=at)
 
-    def draw_tip(
-        self, surface: pygame.Surface, painter: Painter, pointer: tuple[int, int] | None
-    ) -> None:
+    def draw_tip(self, surface: pygame.Surface, painter: Painter, pointer: Pixel | None) -> None:
         """Draw the tooltip of the button under the pointer."""
         name = None if pointer is None else self.at(pointer)
         if name is None:

@@ -10,7 +10,7 @@ from pathlib import Path
 import pygame
 
 from mars2d.output.raster.painter import Painter
-from mars2d.window.widgets.rows import Scroll
+from mars2d.window.widgets.rows import Pixel, Scroll, Word, write_line
 
 WIDTH, GAP, MARGIN = 212.0, 18.0, 30.0
 """The least width of a card, the gap between two, and the margin of the page, points."""
@@ -128,14 +128,11 @@ class Page:
         above = 0 if place.top < 2 * place.height else place.top - place.height // 2
         self._scroll.bring(above, place.bottom + 20)
 
-    def at(self, pixel: tuple[int, int]) -> int | None:
+    def at(self, pixel: Pixel) -> int | None:
         """Return the number of the card at a pixel of the surface, if there is one."""
-        if not self._area.collidepoint(pixel):
-            return None
-        found = (
-            k for k, (_, place) in enumerate(self.places) if self._seen(place).collidepoint(pixel)
-        )
-        return next(found, None)
+        inside = self._area.collidepoint(pixel)
+        places = enumerate(self._seen(place) for _, place in self.places if inside)
+        return next((k for k, place in places if place.collidepoint(pixel)), None)
 
     def draw(self, surface: pygame.Surface, painter: Painter) -> None:
         """Draw the visible cards, and the scroll bar."""
@@ -163,10 +160,8 @@ class Page:
             painter.panel(surface, place.inflate(2 * edge, 2 * edge), theme.selected, 10 * ui)
         painter.panel(surface, place, theme.plate, 8 * ui, theme.edge)
         inset = round(6 * ui)
-        shown = pygame.Rect(
-            place.left + inset, place.top + inset,
-            place.width - 2 * inset, place.height - inset - round(CAPTION * ui),
-        )  # fmt: skip
+        shown = place.inflate(-2 * inset, 0)
+        shown.top, shown.height = place.top + inset, place.height - inset - round(CAPTION * ui)
         image = None if card.picture is None else _image(card.picture, shown.size)
         if image is not None:
             surface.blit(image, shown)
@@ -183,10 +178,8 @@ class Page:
             painter.write(surface, label, LETTERS * ui, theme.ink, center=button.center)
             self.buttons.append((button, command))
             corner = button.left - round(6 * ui), button.bottom
-        room = place.width - 2 * round(10 * ui)
-        title = fonts.shorten(card.title, LETTERS * ui, room)
-        middle = place.left + 10 * ui, place.bottom - 0.5 * CAPTION * ui
-        painter.write(surface, title, LETTERS * ui, theme.text, midleft=middle)
+        caption = pygame.Rect(shown.bottomleft, (shown.width, place.bottom - shown.bottom))
+        write_line(surface, caption, painter, [Word(card.title, theme.text, LETTERS)])
 
 
 @lru_cache(maxsize=128)

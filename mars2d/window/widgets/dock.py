@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -13,14 +13,12 @@ from mars2d.output.raster.layout import Bounds, Layout, fitted
 from mars2d.output.raster.painter import Painter
 from mars2d.window.widgets.buttons import draw_icon
 from mars2d.window.widgets.panel import Frame, Panel
-from mars2d.window.widgets.rows import Word, write_line
-
-Pixel = tuple[int, int]
+from mars2d.window.widgets.rows import Pixel, write_line
 
 WIDTH, MIN_WIDTH = 344.0, 210.0
-"""The width of a column, points, and the width below which nothing is drawn."""
+"""The width of a column, and the least width if the picture has it, points."""
 MAX_SHARE = 0.46
-"""The largest share of the picture's width for a column, and of its height for a strip."""
+"""The largest share of the picture's width for a wider column, and of its height for a strip."""
 MARGIN, PAD, HEAD = 12.0, 14.0, 34.0
 """The gap round a panel, the margin in it, and the height of its title, points."""
 CLOSE = 26.0
@@ -67,6 +65,8 @@ class Dock:
         self._framed: object = None  # what the room was made for
         self._mirrored = False
         self._held: Panel | None = None
+        self._frame: Frame = None
+        self._sizes: dict[tuple[str, int], tuple[float, float]] = {}  # in this picture
 
     @property
     def opened(self) -> list[str]:
@@ -142,7 +142,7 @@ class Dock:
         It stays where it is when a panel opens that does not frame, such as for what is selected.
         bounds: of the arena, metres.
         """
-        self._plot, shown = layout.plot, self._shown
+        self._plot, shown, self._frame, self._sizes = layout.plot, self._shown, frame, {}
         names = [panel.name for panel in shown]
         new = [name for name in names if name not in self._recent]
         self._recent = [*reversed(new), *(name for name in self._recent if name in names)]
@@ -151,16 +151,16 @@ class Dock:
         chosen = [(panel.name, panel.wanted) for panel in shown]
         if anew or chosen != self._chosen:  # not where only heights change
             self._chosen = chosen
-            self._place = self._best(layout, frame, bounds, anew=anew) if shown else None
+            self._place = self._best(layout, bounds, anew=anew) if shown else None
         if self.plates.keys() != set(names):  # what covers the picture, before it is drawn
-            self.plates = self._plates(frame)
+            self.plates = self._plates()
         if anew:
             moves = first or len(framed) > 1
             room = self._place.room if self._place is not None and moves else self._plot
             self._framed, self._room = framed, room
         return self._room
 
-    def _best(self, layout: Layout, frame: Frame, bounds: Bounds, *, anew: bool) -> Place | None:
+    def _best(self, layout: Layout, bounds: Bounds, *, anew: bool) -> Place | None:
         """Return the place at which arena and panels are largest, if there is one.
 
         anew: whether the arena may move; else places beside where it is come first.
@@ -171,28 +171,27 @@ class Dock:
 
         def worth(place: Place) -> tuple[bool, float]:
             """Return whether all panels have room, and how large arena and panels are."""
-            wanted = sum(self._heights(panel, frame, place.lanes[0])[1] for panel in self._shown)
+            wanted = sum(self._heights(panel, place.lanes[0])[1] for panel in self._shown)
             room = min(sum(lane.height for lane in place.lanes) / wanted, 1.0)
-            whole = self._stacks(place.lanes, dict.fromkeys(self._recent, 2), frame)
+            whole = self._stacks(place.lanes, self._recent)
             return whole is not None, min(scale(place.room) / alone, 1.0) * room**0.5
 
         alone = scale(self._plot)
         arena = round((bounds[3] - bounds[2]) * alone + 56 * self.painter.ui)
-        places = list(self._places(frame, arena))
+        places = list(self._places(arena))
         beside = [place for place in places if scale(place.room) >= BESIDE * alone]
         beside = [place for place in beside if not anew and place.room == self._room] or beside
         covering = [place._replace(room=self._plot) for place in places[:1]]
         return max(beside or covering, key=worth, default=None)
 
-    def _places(self, frame: Frame, arena: int) -> Iterator[Place]:
+    def _places(self, arena: int) -> Iterator[Place]:
         """Yield the places for the open panels: columns at the right, and a strip below.
 
         arena: how high it is where there are no panels, pixels.
         """
         ui, plot, gap = self.painter.ui, self._plot, round(MARGIN * self.painter.ui)
-        shown, width = self._shown, round(min(WIDTH * ui, MAX_SHARE * plot.width))
-        if width < MIN_WIDTH * ui:
-            return
+        shown, width = self._shown, max(MAX_SHARE * plot.width, MIN_WIDTH * ui)
+        width = round(min(WIDTH * ui, width, plot.width - 2 * gap))
 
         def lanes(area: pygame.Rect, count: int) -> list[pygame.Rect]:
             wide, high = (area.width - gap) // count - gap, area.height - 2 * gap
@@ -208,20 +207,21 @@ class Dock:
             yield Place(room, lanes(area, count))
         count = max(1, min(len(shown), (plot.width - gap) // round(WIDTH * ui + gap)))
         lane = lanes(plot, count)[0]
-        least, most = (max(self._heights(panel, frame, lane)[k] for panel in shown) for k in (0, 1))
+        least, most = (max(self._heights(panel, lane)[k] for panel in shown) for k in (0, 1))
         free = plot.height - arena - 2 * gap  # below the arena
         below = round(min(max(least, free), most, MAX_SHARE * plot.height)) + 2 * gap
         room = pygame.Rect(plot.topleft, (plot.width, plot.height - below))
         yield Place(room, lanes(pygame.Rect(room.bottomleft, (plot.width, below)), count))
 
-    def _heights(self, panel: Panel, frame: Frame, lane: pygame.Rect) -> tuple[float, float]:
+    def _heights(self, panel: Panel, lane: pygame.Rect) -> tuple[float, float]:
         """Return the least and the wanted height of a whole panel in a lane, pixels."""
-        ui = self.painter.ui
-        least, wanted = panel.heights(frame, lane.width / ui - 2 * PAD)
-        more = PAD + (HEAD if panel.headed else 0)
-        return min((least + more) * ui, lane.height), (wanted + more) * ui
+        ui, of = self.painter.ui, (panel.name, lane.width)
+        if of not in self._sizes:
+            self._sizes[of] = panel.heights(self._frame, lane.width / ui - 2 * PAD)
+        least, wanted = self._sizes[of]
+        return min((least + PAD + HEAD) * ui, lane.height), (wanted + PAD + HEAD) * ui
 
-    def _plates(self, frame: Frame) -> dict[str, pygame.Rect]:
+    def _plates(self) -> dict[str, pygame.Rect]:
         """Return where panels stand, by name; sets which are not seen whole.
 
         Where there is no room for all, those opened longest ago are folded, then left out; that
@@ -229,11 +229,12 @@ class Dock:
         """
         if self._place is None:
             return {}
-        lanes, levels = self._place.lanes, dict.fromkeys(reversed(self._recent), 2)
-        while (stacks := self._stacks(lanes, levels, frame)) is None:
-            *others, _ = levels
-            levels[max(others, key=levels.__getitem__)] -= 1
-        self._folded = {name for name, level in levels.items() if level < 2}
+        lanes, recent = self._place.lanes, self._recent
+        tries = [(recent[:k], recent[k:]) for k in range(len(recent), 0, -1)]
+        tries += [(recent[:1], recent[1:k]) for k in range(len(recent) - 1, 0, -1)]
+        made = ((self._stacks(lanes, *names), names[0]) for names in tries)
+        stacks, whole = next((stacks, whole) for stacks, whole in made if stacks is not None)
+        self._folded = {*recent} - {*whole}
         gap, found = round(MARGIN * self.painter.ui), {}
         for lane, stack in zip(lanes, stacks, strict=True):
             more = sum(wanted - least for _, least, wanted in stack)
@@ -246,20 +247,20 @@ class Dock:
         return found
 
     def _stacks(
-        self, lanes: Sequence[pygame.Rect], levels: Mapping[str, int], frame: Frame
+        self, lanes: Sequence[pygame.Rect], whole: Sequence[str], folded: Sequence[str] = ()
     ) -> list[list[tuple[str, float, float]]] | None:
         """Return the panels of each lane with their least and wanted heights; None for no room.
 
-        Each is put where most room is left. levels: 2 for panels that are seen whole, 1 for those
-        that are folded, 0 for those that are left out.
+        Each is put where most room is left. whole, folded: the names of panels to be seen.
         """
         gap, head = round(MARGIN * self.painter.ui), HEAD * self.painter.ui
         stacks: list[list[tuple[str, float, float]]] = [[] for _ in lanes]
         rooms = [lane.height + gap for lane in lanes]
         for panel in self._shown:
-            k, level = rooms.index(max(rooms)), levels[panel.name]
-            least, wanted = self._heights(panel, frame, lanes[k]) if level > 1 else (head, head)
-            if level:
+            k, least, wanted = rooms.index(max(rooms)), head, head
+            if panel.name in whole:
+                least, wanted = self._heights(panel, lanes[k])
+            if panel.name in (*whole, *folded):
                 rooms[k] -= round(least) + gap
                 stacks[k].append((panel.name, least, max(least, wanted)))
         return stacks if min(rooms) >= 0 else None
@@ -297,33 +298,29 @@ class Dock:
         spot: a pixel that they should not cover, where they have no room beside the arena. free:
         where nothing may be covered; panels that would are left out. pointer: where the mouse is.
         """
-        away, plates = self._aside(spot), self._plates(frame)
+        self._frame, self._sizes = frame, {}
+        away, plates = self._aside(spot), self._plates()
         self.plates, self.closes = {}, {}
         for panel in self._shown:
             plate = plates.get(panel.name, pygame.Rect(0, 0, 0, 0)).move(away)
             if plate and not (free is not None and plate.colliderect(free)):
                 self.plates[panel.name] = plate
-                self._draw_panel(surface, frame, panel, pointer)
+                self._draw_panel(surface, panel, pointer)
 
-    def _draw_panel(
-        self, surface: pygame.Surface, frame: Frame, panel: Panel, pointer: Pixel | None
-    ) -> None:
+    def _draw_panel(self, surface: pygame.Surface, panel: Panel, pointer: Pixel | None) -> None:
         """Draw a panel with its title and its close button."""
         ui, theme, plate = self.painter.ui, self.painter.theme, self.plates[panel.name]
-        folded = panel.name in self._folded
-        pad, head = round(PAD * ui), round(HEAD * ui)
+        pad, side = round(PAD * ui), round(CLOSE * ui)
         self.painter.panel(surface, plate, theme.plate, 8 * ui, theme.edge)
-        inside = plate.inflate(-2 * pad, -pad)
-        top = pygame.Rect(inside.topleft, (inside.width, head))
-        if panel.headed or folded:
-            top.top = plate.top
-            inside.height, inside.top = inside.bottom - top.bottom, top.bottom
-            color = theme.muted if folded else theme.ink
-            line = pygame.Rect(top.topleft, (top.width - round(CLOSE * ui), head))
-            write_line(surface, line, self.painter, [Word(panel.title, color, 13.5, bold=True)])
-        if not folded:
-            panel.draw(surface, inside, frame)
-        close = pygame.Rect(0, 0, round(CLOSE * ui), round(CLOSE * ui))
+        top = pygame.Rect(
+            plate.left + pad, plate.top, plate.width - 2 * pad - side, round(HEAD * ui)
+        )
+        write_line(surface, top, self.painter, *panel.head(self._frame))
+        if panel.name not in self._folded:
+            inside = plate.inflate(-2 * pad, 0)
+            inside.top, inside.height = top.bottom, plate.bottom - top.bottom - pad // 2
+            panel.draw(surface, inside, self._frame)
+        close = pygame.Rect(0, 0, side, side)
         close.midright = plate.right - pad // 2, top.centery
         over = pointer is not None and close.collidepoint(pointer)
         draw_icon(surface, CONTROLS["close"].icon, theme.ink if over else theme.muted, close)

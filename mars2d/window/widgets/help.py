@@ -6,11 +6,10 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import pygame
 
-from mars2d.output.raster.fonts import Fonts
 from mars2d.output.raster.layout import Layout
 from mars2d.output.raster.painter import Painter
 from mars2d.window.widgets.actions import Action
-from mars2d.window.widgets.rows import Row, height_of
+from mars2d.window.widgets.rows import Row, draw_rows, height_of
 
 SHARES = (1.0, 0.85, 0.7)
 """The scales that are tried until all is on one page, as shares of the window's."""
@@ -91,10 +90,7 @@ class Help:
         painter.write(surface, word, 14 * ui, theme.muted, midright=end)
         for k, column in enumerate(columns[self.page * count : (self.page + 1) * count]):
             place = pygame.Rect(plate.left + pad + k * step, plate.top + round(TOP * ui), width, 0)
-            for row in column:
-                place.height = round(row.height * ui)
-                row.draw(surface, place)
-                place.top = place.bottom
+            draw_rows(surface, column, place, ui)
         painter.ui = largest
 
 
@@ -109,11 +105,9 @@ def _rows(painter: Painter, heading: str, keys: Iterable[Action], width: int) ->
 
     yield Row(HEADING, draw, heading)
     for key in keys:
-        caps = sum(cap_width(fonts, name, ui) for name in key.labels) + 10 * ui
-        left = max(CAPS * ui, caps)
-        yield row_of_keys(
-            painter, key.labels, fonts.wrap(key.help, SIZE * ui, width - left, 4), left
-        )
+        left = max(CAPS * ui, sum(_widths(painter, key.labels)) + 10 * ui)
+        lines = fonts.wrap(key.help, SIZE * ui, width - left, 4)
+        yield row_of_keys(painter, key.labels, lines, left)
 
 
 def row_of_keys(
@@ -123,17 +117,28 @@ def row_of_keys(
 
     left: where the lines begin at least, pixels.
     """
-    ui = painter.ui
+    ui, theme = painter.ui, painter.theme
 
     def draw(surface: pygame.Surface, place: pygame.Rect) -> None:
         x, middle = place.left, place.top + round(ROW * ui / 2)
-        for name in keys:
-            x = draw_cap(surface, painter, name, x, middle, ui)
+        for name, width in zip(keys, _widths(painter, keys), strict=True):
+            plate = pygame.Rect(x, middle - round(13 * ui), width - round(6 * ui), round(26 * ui))
+            painter.panel(surface, plate.move(0, round(2 * ui)), theme.key_edge, 6 * ui)
+            painter.panel(surface, plate, theme.key, 6 * ui, theme.key_edge)
+            at, x = plate.center, x + width
+            painter.write(surface, name, 14 * ui, theme.text, bold=True, center=at)
         for k, line in enumerate(lines):
-            at = max(place.left + left, x + 4 * ui), middle + round(k * LINE * ui)
-            painter.write(surface, line, SIZE * ui, painter.theme.text, midleft=at)
+            at = round(max(place.left + left, x + 4 * ui)), middle + round(k * LINE * ui)
+            painter.write(surface, line, SIZE * ui, theme.text, midleft=at)
 
     return Row(ROW + LINE * (len(lines) - 1), draw)
+
+
+def _widths(painter: Painter, keys: Sequence[str]) -> list[int]:
+    """Return the widths of the caps of keys with the gaps beside them, pixels."""
+    ui = painter.ui
+    wide = [painter.fonts.width(key, 14 * ui, bold=True) for key in keys]
+    return [round(max(each / ui + 18, 30) * ui) + round(6 * ui) for each in wide]
 
 
 def _filled(rows: Iterable[Row], limit: float) -> Iterator[list[Row]]:
@@ -153,23 +158,3 @@ def draw_veil(surface: pygame.Surface, painter: Painter, area: pygame.Rect) -> N
     veil.fill(painter.theme.veil)
     veil.set_alpha(150 if painter.theme.dark else 70)
     surface.blit(veil, area)
-
-
-def cap_width(fonts: Fonts, text: str, ui: float) -> int:
-    """Return the width of a key's cap with the gap beside it, pixels."""
-    width = fonts.width(text, 14 * ui, bold=True) + round(18 * ui)
-    return max(width, round(30 * ui)) + round(6 * ui)
-
-
-def draw_cap(
-    surface: pygame.Surface, painter: Painter, text: str, x: int, y: int, ui: float
-) -> int:
-    """Draw a key's cap; return where the next one begins."""
-    theme = painter.theme
-    width = cap_width(painter.fonts, text, ui)
-    plate = pygame.Rect(x, 0, width - round(6 * ui), round(26 * ui))
-    plate.centery = y
-    painter.panel(surface, plate.move(0, round(2 * ui)), theme.key_edge, 6 * ui)
-    painter.panel(surface, plate, theme.key, 6 * ui, theme.key_edge)
-    painter.write(surface, text, 14 * ui, theme.text, bold=True, center=plate.center)
-    return x + width

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from copy import copy
 from typing import NamedTuple
 
 import pygame
@@ -10,7 +11,7 @@ import pygame
 from mars2d.output.raster.painter import Painter
 from mars2d.window.widgets.actions import CONTROL, MODIFIERS, label_of
 from mars2d.window.widgets.help import draw_veil
-from mars2d.window.widgets.rows import Scroll, Word, write_line
+from mars2d.window.widgets.rows import Pixel, Scroll, Word, write_line
 from mars2d.window.widgets.text_field import TextField
 
 ROW, MORE, PAD, BOX = 30.0, 18.0, 8.0, 15.0
@@ -53,6 +54,16 @@ class Entry(NamedTuple):
     tone: str = ""
     field: TextField | None = None
 
+    @property
+    def height(self) -> float:
+        """Its height, points."""
+        return ROW + MORE * bool(self.more)
+
+    @property
+    def before(self) -> float:
+        """The room before its title, for a tick box or dots, or as it is indented, points."""
+        return BOX * self.level + (BOX + 6) * max(len(self.colors), self.on is not None)
+
 
 class Menu:
     """A list of entries on a plate, which takes all keys while it is open.
@@ -77,6 +88,7 @@ class Menu:
         self._scroll = Scroll()
         self._sought = False  # whether the chosen entry is to be brought into view
         self._stays = self._asks = self._pointed = False
+        self._most = 0.0  # the most room before a title
 
     @property
     def is_open(self) -> bool:
@@ -104,7 +116,7 @@ class Menu:
         self,
         name: str,
         entries: Callable[[], Sequence[Entry]],
-        corner: tuple[int, int],
+        corner: Pixel,
         *,
         stays: bool = False,
         asks: bool = False,
@@ -161,7 +173,7 @@ class Menu:
             self._choose(entry)
         return True
 
-    def _under(self, pixel: tuple[int, int]) -> list[tuple[int, Entry]]:
+    def _under(self, pixel: Pixel) -> list[tuple[int, Entry]]:
         """Return the entry at a pixel that can be chosen, with its number, if there is one."""
         return [(k, entry) for k, entry, place in self._places
                 if entry.act and place.collidepoint(pixel)]  # fmt: skip
@@ -177,6 +189,7 @@ class Menu:
         name, entries = pygame.key.name(event.key), self._listed()
         self._chosen = min(self._chosen, len(entries) - 1)
         moves = {"up": -1, "down": 1, "tab": 1, "page up": -8, "page down": 8}
+        moves |= {"home": -len(entries), "end": len(entries)}
         if name in MODIFIERS:
             return False
         named = label_of(event)
@@ -185,9 +198,6 @@ class Menu:
             self._choose(by_key)
         elif name in moves:
             self._move(moves[name])
-        elif name in ("home", "end"):
-            self._chosen = -1 if name == "home" else len(entries)
-            self._move(1 if name == "home" else -1)
         elif name in ("return", "enter", *(() if self._stays or self._typed else ("space",))):
             self._choose(entries[self._chosen])
         elif name == "escape" and self._docked:
@@ -197,72 +207,63 @@ class Menu:
                 self.close()
             return name == "escape" and not self._stays
         else:
-            found = self._type(event.unicode.lower(), entries)
-            return found or not self._stays or name in ("left", "right")
+            self._type(event.unicode.lower(), entries)
         return True
 
     def _move(self, by: int) -> None:
-        """Choose an entry further down, or for numbers below 0 up; from the last, the first."""
+        """Choose an entry further down, or up for numbers below 0; from the last one, the first."""
         able = [k for k, entry in enumerate(self._listed()) if entry.act is not None]
-        if not able or not by:
-            return
+        ahead = [k for k in able if (k - self._chosen) * by > 0]
         self._typed, self._sought = "", True
-        way = 1 if by > 0 else -1
-        ahead = sorted((k for k in able if way * (k - self._chosen) > 0), key=lambda k: way * k)
-        self._chosen = ahead[min(abs(by), len(ahead)) - 1] if ahead else able[0 if by > 0 else -1]
+        if ahead:
+            self._chosen = ahead[min(by, len(ahead)) - 1] if by > 0 else ahead[max(by, -len(ahead))]
+        elif able and abs(by) == 1:
+            self._chosen = able[0 if by > 0 else -1]
 
-    def _type(self, letter: str, entries: Sequence[Entry]) -> bool:
-        """Choose the next entry that begins with the letters typed so far, or with this one.
-
-        Return whether there is one.
-        """
-        if not letter.isprintable() or not letter:
-            return False
-        order = [*range(self._chosen, len(entries)), *range(max(self._chosen, 0))]
-        longer = self._typed + letter
-        for typed, numbers in ((longer, order), (letter, [*order[1:], *order[:1]])):
-            found = (k for k in numbers if k >= 0 and entries[k].act is not None
-                     and entries[k].title.lower().startswith(typed))  # fmt: skip
-            k = next(found, None)
-            if k is not None:
-                self._chosen, self._typed, self._sought = k, typed, True
-                return True
-        return False
+    def _type(self, letter: str, entries: Sequence[Entry]) -> None:
+        """Choose the next entry that begins with the letters typed so far, or with this one."""
+        typed = self._typed + letter if letter.isprintable() and letter else ""
+        for start, begin in ((self._chosen, typed), (self._chosen + 1, typed[-1:])):
+            found = [
+                k for k, entry in enumerate(entries)
+                if begin and entry.act is not None and entry.title.lower().startswith(begin)
+            ]  # fmt: skip
+            if found:
+                self._chosen = min(found, key=lambda k: (k < start, k))
+                self._typed, self._sought = begin, True
+                return
 
     # -- drawing --------------------------------------------------------------------------------
 
     def size(self, painter: Painter) -> tuple[int, int]:
         """Return its width and height where there is room for all, pixels."""
-        entries, ui, pad = self._listed(), painter.ui, round(PAD * painter.ui)
-        width = painter.fonts.width
+        entries, ui, width = self._listed(), painter.ui, painter.fonts.width
+        self._most = max(each.before for each in entries)
+        field = round(FIELD * ui) * any(each.field is not None for each in entries)
         titles = [
-            max(width(each.title, SIZE * ui, bold=each.act is None),
-                width(each.more, SMALL * ui))
-            + self._before(each, entries, ui) + round(FIELD * ui * (each.field is not None))
+            round(self._before(each) * ui)
+            + max(width(each.title, SIZE * ui, bold=each.act is None), width(each.more, SMALL * ui))
             for each in entries
-        ]  # fmt: skip
+        ]
         ends = max(width(f"{each.value}{each.key}", SIZE * ui) for each in entries)
-        return (
-            max(titles) + (ends + round(24 * ui) if ends else 0) + 4 * pad,
-            sum(_height(each, ui) for each in entries) + 2 * pad,
-        )
+        ends += round(24 * ui) if ends else 0
+        high = sum(round(each.height * ui) for each in entries)
+        pad = round(PAD * ui)
+        return max(titles) + max(ends, field) + 4 * pad, high + 2 * pad
 
-    def _before(self, entry: Entry, entries: Sequence[Entry], ui: float) -> int:
-        """Return the room before a title, for a tick box or dots, or as it is indented, pixels."""
-        if self._docked:
-            return round((BOX * entry.level + (BOX + 5) * len(entry.colors)) * ui)
-        most = max(max(len(each.colors), each.on is not None) for each in entries)
-        return round(most * (BOX + 9) * ui) if entry.act is not None or entry.colors else 0
+    def _before(self, entry: Entry) -> float:
+        """Return the room before a title, points: the same for all entries of a menu that opens."""
+        return entry.before if self._docked or entry.act is None else self._most
 
     def draw(self, surface: pygame.Surface, bounds: pygame.Rect, painter: Painter) -> None:
         """Draw it within bounds, if it is open; where there is no room for all, a part of it."""
         if self._entries is None:
             return
-        theme, largest = painter.theme, painter.ui
         if self._docked:
-            painter.ui = min(SCALE * largest, bounds.width / LEAST)
-        ui, entries = painter.ui, self._entries()
-        self._arrange(entries, bounds, painter)
+            painter = copy(painter)
+            painter.ui = min(SCALE * painter.ui, bounds.width / LEAST)
+        theme, ui = painter.theme, painter.ui
+        self._arrange(self._entries(), bounds, painter)
         if self._asks:
             draw_veil(surface, painter, bounds)
         if self._docked:
@@ -274,14 +275,12 @@ class Menu:
             if entry.act is not None and k == self._chosen and (self.focused or self._pointed):
                 edge = theme.selected if self.focused else theme.key_edge
                 painter.panel(surface, place, theme.key, 5 * ui, edge)
-            before = self._before(entry, entries, ui)
-            self._draw_entry(surface, painter, entry, place, before)
+            self._draw_entry(surface, painter, entry, place.inflate(-2 * round(PAD * ui), 0))
         self._scroll.draw_bar(surface, painter, self.plate.inflate(-4 * ui, -16 * ui))
-        painter.ui = largest
 
     def _arrange(self, entries: Sequence[Entry], bounds: pygame.Rect, painter: Painter) -> None:
         """Place the plate and the entries that are seen, the chosen one among them if sought."""
-        pad, heights = round(PAD * painter.ui), [_height(entry, painter.ui) for entry in entries]
+        pad, heights = round(PAD * painter.ui), [round(e.height * painter.ui) for e in entries]
         width, height = bounds.size if self._docked else self.size(painter)
         size = min(width, bounds.width), min(height, bounds.height)
         self.plate = pygame.Rect(self.corner, size).clamp(bounds)
@@ -295,17 +294,11 @@ class Menu:
         self._chosen = min(able, key=lambda k: abs(k - self._chosen), default=self._chosen)
 
     def _draw_entry(
-        self,
-        surface: pygame.Surface,
-        painter: Painter,
-        entry: Entry,
-        place: pygame.Rect,
-        before: int,
+        self, surface: pygame.Surface, painter: Painter, entry: Entry, place: pygame.Rect
     ) -> None:
-        fonts, theme, ui = painter.fonts, painter.theme, painter.ui
-        pad, side, size = round(PAD * ui), round(BOX * ui), SIZE * ui
-        left, right, middle = place.left + pad, place.right - pad, place.top + round(ROW / 2 * ui)
-        box = pygame.Rect(left, middle - side // 2, side, side)
+        theme, ui, side = painter.theme, painter.ui, round(BOX * painter.ui)
+        middle, left = place.top + round(ROW / 2 * ui), place.left + round(self._before(entry) * ui)
+        box = pygame.Rect(place.left, middle - side // 2, side, side)
         if entry.on is not None:
             fill, edge = (theme.selected,) * 2 if entry.on else (theme.plate, theme.muted)
             painter.panel(surface, box, fill, 3 * ui, edge)
@@ -313,28 +306,22 @@ class Menu:
             tick = [(box.left + x * side, box.top + y * side) for x, y in TICK]
             thick = max(2, round(2 * ui))
             pygame.draw.lines(surface, theme.plate, closed=False, points=tick, width=thick)
-        head = entry.act is None and not entry.tone
-        title, value = (theme.muted, theme.ink) if self._docked else (theme.ink, theme.muted)
-        if head or entry.tone:
-            inks = {"note": theme.muted, "warning": theme.waiting.ink}
-            title = inks.get(entry.tone, value)
-        line = pygame.Rect(left + before, place.top, right - left - before, round(ROW * ui))
-        most = line.width - pad - fonts.width(entry.title, size, bold=head)
-        words = fonts.shorten(f"{entry.value}{entry.key}", size, max(0.6 * line.width, most))
         for k, color in enumerate(entry.colors):
-            dot = box.move(round(k * (BOX + 4) * ui), 0)
-            painter.panel(surface, dot, theme.shade(color), side / 2)
-        values = [Word(words, value, SIZE)] if words else []
-        free = write_line(surface, line, painter, [Word(entry.title, title, SIZE, head)], values)
+            painter.panel(
+                surface, box.move(round(k * (BOX + 4) * ui), 0), theme.shade(color), side / 2
+            )
+        line = pygame.Rect(left, place.top, place.right - left, round(ROW * ui))
+        head, size = entry.act is None and not entry.tone, SIZE * ui
+        title, value = (theme.muted, theme.ink) if self._docked else (theme.ink, theme.muted)
+        inks = {"note": theme.muted, "warning": theme.waiting.ink, "": value if head else title}
+        room = line.width - round(PAD * ui) - painter.fonts.width(entry.title, size, bold=head)
+        words = f"{entry.value}{entry.key}"
+        words = painter.fonts.shorten(words, size, max(0.6 * line.width, room))
+        titles = [Word(entry.title, inks[entry.tone], SIZE, head)]
+        free = write_line(surface, line, painter, titles, [Word(words, value, SIZE)] * bool(words))
         if entry.field is not None:
-            free.width += pad
             painter.panel(surface, free, theme.paper, 5 * ui, theme.selected)
-            entry.field.draw(surface, free.inflate(-2 * pad, 0), painter, size)
+            entry.field.draw(surface, free.inflate(-2 * round(PAD * ui), 0), painter, size)
         if entry.more:
-            more = fonts.shorten(entry.more, SMALL * ui, place.right - pad - left - before)
-            below = (left + before, middle + MORE * ui)
-            painter.write(surface, more, SMALL * ui, theme.muted, midleft=below)
-
-
-def _height(entry: Entry, ui: float) -> int:
-    return round((ROW + (MORE if entry.more else 0.0)) * ui)
+            below = line.move(0, round(MORE * ui))
+            write_line(surface, below, painter, [Word(entry.more, theme.muted, SMALL)])

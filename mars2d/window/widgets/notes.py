@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
@@ -17,6 +18,7 @@ TONES = {"info": "running", "warning": "waiting", "error": "error"}
 
 STAYS, FADES = 5.0, 0.7
 """How long a note is seen, and how long it fades at the end, seconds."""
+NUMBER = re.compile(r"\d+(\.\d+)?")
 MAX_NOTES = 4
 MAX_LINES = 6
 """The number of lines in a note."""
@@ -56,11 +58,12 @@ class Notes:
         return any(note.kind == "error" for note in self._notes)
 
     def say(self, text: str, kind: NoteKind = "info") -> None:
-        """Add a note. It replaces a note with the same text; an error also replaces an error."""
-        self._notes = [
-            note for note in self._notes if note.text != text and not (kind == note.kind == "error")
-        ]
-        self._notes = [*self._notes, _Note(text, kind)][-MAX_NOTES:]
+        """Add a note. It replaces one that differs at most in numbers; an error also an error."""
+        alike = NUMBER.sub("", text)
+        others = [note for note in self._notes if NUMBER.sub("", note.text) != alike]
+        if kind == "error":
+            others = [note for note in others if note.kind != "error"]
+        self._notes = [*others, _Note(text, kind)][-MAX_NOTES:]
 
     def clear(self) -> None:
         """Remove all notes, errors too."""

@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import pairwise
-from math import floor
+from functools import cache, lru_cache, partial
 from typing import Any
 
 import pygame
 
+from mars2d.output.raster.fonts import Fonts
 from mars2d.output.raster.painter import Painter
-from mars2d.window.widgets.rows import BAR, Row, Scroll, Word, height_of, width_of, write_line
+from mars2d.window.widgets.rows import (
+    BAR,
+    Row,
+    Scroll,
+    Word,
+    columns,
+    draw_rows,
+    height_of,
+    write_line,
+)
 
 Frame = Any
 """What panels show: the dock passes it on."""
@@ -31,23 +40,20 @@ class Panel:
     The dock does the rest: it finds a place, draws plate, title and close button, passes the mouse
     on, and remembers from one window to the next which panels were open.
 
-    name: one word, by which the panel is opened and remembered. title: written at its top, and all
-    that is seen of it where there is no room. headed: whether the dock writes the title; else the
-    panel draws a head of its own, and leaves the corner at the upper right to the close button.
+    name: one word, by which the panel is opened and remembered. title: written at its top.
     frames: whether the arena moves aside when it opens or changes its size. wanted: whether it is
     to be open, or with how many plots, which need room. remembered: whether the next window opens
     it again. least: the least height of rows and foot, points. lacks: why there is nothing to show,
-    or "". places: where named rows were drawn.
+    or "". sought: the name of a row that is brought into view. places: where named rows were drawn.
     """
 
     name = ""
     title = ""
-    headed = True
     frames = True
     remembered = True
     wanted: int = False
     least = 72.0
-    lacks = ""
+    lacks = sought = ""
 
     def __init__(self, painter: Painter) -> None:
         """Start closed, at the top."""
@@ -68,6 +74,10 @@ class Panel:
         self.wanted = False
 
     # -- content --------------------------------------------------------------------------------
+
+    def head(self, frame: Frame) -> tuple[Sequence[Word], Sequence[Word]]:  # noqa: ARG002
+        """Return the words at its top, at the left and at the right."""
+        return [Word(self.title, self.painter.theme.ink, 13.5, bold=True)], []
 
     def rows(self, frame: Frame, width: float) -> Sequence[Row]:
         """Return the rows of now; width: points."""
@@ -100,15 +110,14 @@ class Panel:
         if self.scroll.cut:  # the bar takes some of the width
             rows = self.rows(frame, width - BAR)
             beside.width -= round(BAR * ui)
-        seen = self.scroll.seen([row.height * ui for row in rows], beside)
-        self.places = {rows[k].name: place for k, place in seen if rows[k].name}
+        names, self.sought, sought = [row.name for row in rows], "", self.sought
+        number = names.index(sought) if sought and sought in names else None
+        seen = self.scroll.seen([row.height * ui for row in rows], beside, number)
+        self.places = {names[k]: place for k, place in seen if names[k]}
         for k, place in seen:
             rows[k].draw(surface, place)
         self.scroll.draw_bar(surface, self.painter, area)
-        top = area.bottom
-        for row in foot:
-            row.draw(surface, pygame.Rect(rect.left, top, rect.width, round(row.height * ui)))
-            top += round(row.height * ui)
+        draw_rows(surface, foot, pygame.Rect(area.bottomleft, rect.size), ui)
 
     def handle(self, event: pygame.Event) -> bool:
         """Handle an event of the mouse within the panel; return whether a drag has begun.
@@ -129,29 +138,29 @@ class Panel:
         """Return a row of words from both ends."""
         return Row(high, lambda surface, rect: write_line(surface, rect, self.painter, left, right))
 
-    def table(self, words: Sequence[Word], ends: Sequence[float], left: Sequence[Word] = ()) -> Row:
-        """Return a row of columns, in letters as large as all fit.
+    def table(self, lines: Sequence[Sequence[Sequence[Word]]]) -> list[Row]:
+        """Return a row for each line of cells, in letters as large as all lines have room for.
 
-        ends: of columns, in parts of the width; each has as many of the words. left: labels.
+        The first cell of a line is at the left. The others stand at the right, each below those of
+        the lines above; where there are fewer, the first ones are missing.
         """
-        each, ui = len(words) // len(ends), self.painter.ui
-        cells = [words[k : k + each] for k in range(0, len(words), each)]
-        wide = [width_of(self.painter, cell) for cell in ([*left, *cells[0]], *cells[1:])]
+        laid_out = cache(partial(columns, self.painter, lines))
 
-        def draw(surface: pygame.Surface, rect: pygame.Rect) -> None:
-            edges = [round(end * rect.width) for end in (0.0, *ends)]
-            share = min((b - a) / w for (a, b), w in zip(pairwise(edges), wide, strict=True))
+        def draw(
+            line: Sequence[Sequence[Word]], surface: pygame.Surface, rect: pygame.Rect
+        ) -> None:
+            ends, sized = laid_out(rect.width)
+            for cell, end in zip(line[1:], ends[-len(line) + 1 :], strict=True):
+                place = pygame.Rect(rect.left, rect.top, end, rect.height)
+                write_line(surface, place, self.painter, right=[*map(sized, cell)])
+            write_line(surface, rect, self.painter, [*map(sized, line[0])])
 
-            def sized(word: Word) -> Word:
-                size = word.size if share >= 1 else floor(share * word.size * ui) / ui
-                return word._replace(size=size)
+        return [Row(LINE, partial(draw, line)) for line in lines]
 
-            for (a, b), cell in zip(pairwise(edges), cells, strict=True):
-                place = pygame.Rect(rect.left + a, rect.top, b - a, rect.height)
-                write_line(surface, place, self.painter, right=[sized(word) for word in cell])
-            write_line(surface, rect, self.painter, [sized(word) for word in left])
-
-        return Row(LINE, draw)
+    def rule(self, high: float) -> Row:
+        """Return a line across the panel, with a gap above and below."""
+        color = self.painter.theme.edge
+        return Row(high, lambda on, at: on.fill(color, (at.left, at.centery, at.width, 1)))
 
     def gap(self, high: float) -> Row:
         """Return an empty row."""
@@ -159,6 +168,11 @@ class Panel:
 
     def wrapped(self, word: Word, width: float, most: int = 100) -> Iterator[Row]:
         """Yield the lines of a text; most: as many as they are at most."""
-        ui, (text, color, size, bold) = self.painter.ui, word
-        for each in self.painter.fonts.wrap(text, size * ui, width * ui, most) if text else ():
-            yield self.line([Word(each, color, size, bold)])
+        ui, fonts = self.painter.ui, self.painter.fonts
+        for each in _lines(fonts, word.text, word.size * ui, width * ui, most) if word.text else ():
+            yield self.line([word._replace(text=each)])
+
+
+@lru_cache(maxsize=256)
+def _lines(fonts: Fonts, text: str, size: float, room: float, most: int) -> list[str]:
+    return fonts.wrap(text, size, room, most)

@@ -5,14 +5,19 @@ from __future__ import annotations
 from bisect import bisect_left
 from collections.abc import Callable, Sequence
 from itertools import accumulate
+from math import ceil, floor
 from typing import NamedTuple
 
 import pygame
 
 from mars2d.output.raster.painter import Painter
 
+Pixel = tuple[int, int]
+
 GAP = 8.0
 """The gap between two words, points."""
+STEP = 8.0
+"""What the widths of a table's columns are multiples of, points."""
 BAR, THUMB = 8.0, 4.0
 """The room for the bar that shows how far something is scrolled, and its width, points."""
 
@@ -119,6 +124,39 @@ def width_of(painter: Painter, words: Sequence[Word]) -> float:
     """Return the width of words on a line with the gaps behind them, pixels."""
     width, ui = painter.fonts.width, painter.ui
     return sum(width(word.text, word.size * ui, bold=word.bold) + GAP * ui for word in words)
+
+
+def columns(
+    painter: Painter, lines: Sequence[Sequence[Sequence[Word]]], room: int
+) -> tuple[Sequence[float], Callable[[Word], Word]]:
+    """Return where the columns after the first one end, and the words in letters that fit.
+
+    lines: of cells, as for `Panel.table`. room: the width, pixels.
+    """
+    ui, count, first = painter.ui, max(map(len, lines)) - 1, 0.0
+    wide, sizes = [0.0] * count, [[width_of(painter, cell) for cell in line] for line in lines]
+    for size in sizes:
+        for k, each in enumerate(size[:0:-1], 1):  # by steps, since numbers change as they are read
+            wide[-k] = max(wide[-k], ceil(each / (STEP * ui)) * STEP * ui)
+    for label, *cells in sizes:
+        skipped = next((k for k, each in enumerate(cells) if each), len(cells))
+        first = max(first, label - sum(wide[: count - len(cells) + skipped]))
+    share, spare = min(1.0, room / (first + sum(wide))), max(0.0, room - first - sum(wide))
+    ends = [share * (first + end) for end in accumulate(each + spare / count for each in wide)]
+
+    def sized(word: Word) -> Word:
+        return word if share == 1 else word._replace(size=floor(share * word.size * ui) / ui)
+
+    return ends, sized
+
+
+def draw_rows(surface: pygame.Surface, rows: Sequence[Row], rect: pygame.Rect, ui: float) -> None:
+    """Draw rows one below the other, from the top of a rectangle on."""
+    place = rect.copy()
+    for row in rows:
+        place.height = round(row.height * ui)
+        row.draw(surface, place)
+        place.top = place.bottom
 
 
 def height_of(rows: Sequence[Row]) -> float:

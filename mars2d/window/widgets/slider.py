@@ -11,6 +11,7 @@ import pygame
 from mars2d.core.scene import Scene
 from mars2d.output.raster.camera import PIXELS
 from mars2d.output.raster.painter import Painter
+from mars2d.window.widgets.rows import Pixel
 
 LINE = 4.0
 """The height of the line of a slider, points."""
@@ -29,7 +30,7 @@ class Slider:
         self._line = pygame.Rect(0, 0, 0, 0)
         self._area = pygame.Rect(0, 0, 0, 0)
 
-    def hit(self, pixel: tuple[int, int]) -> bool:
+    def hit(self, pixel: Pixel) -> bool:
         """Return whether a press at a pixel moves the handle."""
         return bool(self._area.collidepoint(pixel))
 
@@ -68,9 +69,8 @@ class Slider:
 
     def _place(self, rect: pygame.Rect, line: pygame.Rect, margin: int) -> None:
         """Set the line, and the area that is as high as `rect` and wider than the line."""
-        self._line = line
-        self._area = pygame.Rect(line.left - margin, rect.top, 0, rect.height)
-        self._area.width = line.width + 2 * margin if line.width else 0
+        wide = line.width + 2 * margin if line.width else 0
+        self._line, self._area = line, pygame.Rect(line.left - margin, rect.top, wide, rect.height)
 
     def _fill(self, surface: pygame.Surface, painter: Painter, end: float, color: str) -> None:
         """Draw the line from its left end to a pixel `end` from the left of the surface."""
@@ -125,7 +125,7 @@ class SpeedSlider(Slider):
         painter: Painter,
         speed: float,
         *,
-        pointer: tuple[int, int] | None = None,
+        pointer: Pixel | None = None,
         held: bool = False,
         costs: str = "",
     ) -> None:
@@ -142,8 +142,8 @@ class SpeedSlider(Slider):
         if inner.width <= 0:
             return
         hovered = held or (pointer is not None and self.hit(pointer))
-        real_time = self.rungs.index(1.0)
-        self.draw_value(surface, inner, painter, self.value_of(speed), real_time, held=hovered)
+        rung, real_time = self.value_of(speed), self.rungs.index(1.0)
+        self.draw_value(surface, inner, painter, rung, real_time, held=hovered)
         left, word = self._line.right + round(20 * ui), times(speed)
         fits = painter.fonts.width(word, 16 * ui, bold=True) <= rect.right - round(14 * ui) - left
         size, at = (16 if fits else 12), (left, rect.centery)

@@ -7,6 +7,8 @@ import pygame
 from mars2d.output.raster.painter import Painter
 from mars2d.window.widgets.actions import CONTROL
 
+MOUSE = pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEMOTION
+
 
 class TextField:
     """A line of text that is typed. It takes pygame's events while it has the focus.
@@ -77,57 +79,44 @@ class TextField:
 
     def _press(self, event: pygame.Event) -> bool:
         name, shift = pygame.key.name(event.key), bool(event.mod & pygame.KMOD_SHIFT)
-        if event.mod & CONTROL and name in ("a", "c", "x", "v"):
-            self._use_clipboard(name)
-            return True
-        places = {
-            "left": max(self.caret - 1, 0), "right": min(self.caret + 1, len(self.text)),
-            "home": 0, "end": len(self.text),
-        }  # fmt: skip
-        if name in places and self.text:
-            start, end = self.selected
-            collapses = start < end and not shift and name in ("left", "right")
-            self.caret = (start if name == "left" else end) if collapses else places[name]
-            self._mark = self._mark if shift else self.caret
-            return True
-        if name in ("backspace", "delete") and self.text:
-            if self.caret == self._mark:
-                self.caret = places["left" if name == "backspace" else "right"]
-            self.write("")
-            return True
-        typed = event.unicode
-        return bool(typed) and not event.mod & CONTROL and all(map(self._takes, typed))
-
-    def _use_clipboard(self, letter: str) -> None:
-        """Select all (a), copy (c), cut (x) or paste (v)."""
-        start, end = self.selected
-        if letter == "a":
+        control, (start, end) = bool(event.mod & CONTROL), self.selected
+        left, right = max(self.caret - 1, 0), min(self.caret + 1, len(self.text))
+        places = {"left": left, "right": right, "home": 0, "end": len(self.text)}
+        if control and name == "a":
             self.select_all()
-        elif letter == "v":
+        elif control and name == "v":
             self.write(pasted())
-        elif start < end and copied(self.text[start:end]) and letter == "x":
+        elif control and name in ("c", "x"):
+            if start < end and copied(self.text[start:end]) and name == "x":
+                self.write("")
+        elif name in places and self.text:
+            if (
+                start < end and not shift and name in ("left", "right")
+            ):  # to an end of the selection
+                self.caret = start if name == "left" else end
+            else:
+                self.caret = places[name]
+            self._mark = self._mark if shift else self.caret
+        elif name in ("backspace", "delete") and self.text:
+            if start == end:
+                self.caret = left if name == "backspace" else right
             self.write("")
+        else:
+            typed = event.unicode
+            return bool(typed) and not control and all(map(self._takes, typed))
+        return True
 
     def _point(self, event: pygame.Event) -> bool:
         """Put the caret where the mouse is, and select by a drag."""
         if event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
             self._held = bool(self._place.collidepoint(event.pos))
-            if self._held:
-                self.caret = self._mark = self._nearest(event.pos[0])
-            return self._held
-        if event.type == pygame.MOUSEMOTION and self._held:
-            self.caret = self._nearest(event.pos[0])
-            return True
-        if event.type == pygame.MOUSEBUTTONUP and self._held:
-            self._held = False
-            return True
-        return False
-
-    def _nearest(self, x: int) -> int:
-        """Return the caret's place that is nearest to a pixel from the left."""
-        places = range(len(self._starts))
-        nearest = min(places, key=lambda k: abs(self._starts[k] - x))
-        return min(nearest, len(self.text))
+        if not self._held or event.type not in MOUSE:
+            return False
+        starts = enumerate(self._starts[: len(self.text) + 1])
+        self.caret, _ = min(starts, key=lambda start: abs(start[1] - event.pos[0]))
+        self._mark = self.caret if event.type == pygame.MOUSEBUTTONDOWN else self._mark
+        self._held = event.type != pygame.MOUSEBUTTONUP
+        return True
 
     # -- drawing --------------------------------------------------------------------------------
 
@@ -171,8 +160,6 @@ class TextField:
 
 def copied(text: str) -> bool:
     """Copy text to the clipboard; return whether that worked."""
-    if not pygame.display.get_init() or pygame.display.get_surface() is None:
-        return False
     try:
         pygame.scrap.put_text(text)
     except pygame.error:
