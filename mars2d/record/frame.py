@@ -36,15 +36,14 @@ class Frame:
     pose: (3, n) now. path: (k, 3, n), the poses at all sampling times before, from the start on.
     readings: for each sensor's name the pairs (robot index, reading). sensed: (3, n), the poses at
     which the sensors were read, if they differ from `pose`. read_row: the row at which they were,
-    if it is not `iteration`. draw_addons: adds the add-ons' shapes
-    to a scene; None if they are unknown. prop_pose: (3, p). contacts: of the control step that led
-    here; effort: (n,), of the drives in it. contact_log: returns all contacts so far. prop_path:
-    (k, 3, p), effort_path: (k, n), and command_path: (k, m, n), at the times of `path`; they may be
-    empty. messages: under way in the control step that led here. message_log: returns all messages
-    so far, and the texts to which their field `content` refers. reading_path: returns the readings
-    of a sensor, by its name, on a robot at the times of `path`, (k, ...), or None if unknown.
-    exact_velocity: (3, n + p), of robots and props at this instant, and work: (6,) J since the
-    start; empty if they are unknown. leaps: when bodies were put elsewhere by hand, in order.
+    if it is not `iteration`. draw_addons: adds the add-ons' shapes to a scene; None if they are
+    unknown. prop_pose: (3, p). contacts: of the control step that led here; effort: (n,), of the
+    drives in it. contact_log: returns all contacts so far. prop_path: (k, 3, p), and command_path:
+    (k, m, n), at the times of `path`; they may be empty. messages: under way in the control step
+    that led here. message_log: returns all messages so far, and the texts to which their field
+    `content` refers. exact_velocity: (3, n + p), of robots and props at this instant, and work:
+    (6,) J since the start; empty if they are unknown. leaps: when bodies were put elsewhere by
+    hand, in order.
     """
 
     scenario: Scenario
@@ -61,11 +60,9 @@ class Frame:
     effort: Float = field(default_factory=lambda: np.empty(0))
     contact_log: Callable[[], NDArray[np.void]] = _no_contacts
     prop_path: Float = field(default_factory=lambda: np.empty((0, 3, 0)))
-    effort_path: Float = field(default_factory=lambda: np.empty((0, 0)))
     messages: NDArray[np.void] = field(default_factory=lambda: _no_message_log()[0])
     command_path: Float = field(default_factory=lambda: np.empty((0, 2, 0)))
     message_log: Callable[[], tuple[NDArray[np.void], Sequence[str]]] = _no_message_log
-    reading_path: Callable[[str, int], NDArray[Any] | None] = lambda *_: None
     exact_velocity: Float = field(default_factory=lambda: np.empty((3, 0)))
     work: Float = field(default_factory=lambda: np.empty(0))
     leaps: Sequence[Leap] = ()
@@ -150,7 +147,6 @@ def between(first: Frame, second: Frame, time: float) -> Frame:
         contacts=second.contacts,
         effort=second.effort,
         contact_log=second.contact_log,
-        effort_path=second.effort_path,
         command_path=second.command_path,
         messages=second.messages,
     )

@@ -14,10 +14,9 @@ from mars2d.core.scene import Scene
 from mars2d.core.usercode import called
 from mars2d.record.columns import Column
 from mars2d.record.contact import CONTACT
-from mars2d.record.energy import WORK
 from mars2d.record.interventions import Intervention
 from mars2d.record.message import MESSAGE, as_of, in_flight
-from mars2d.record.rows import COLUMNS, Rows
+from mars2d.record.rows import COLUMNS, Rows, shapes_of
 from mars2d.scenario.scenario import Scenario
 from mars2d.sensors.error_model import as_numbers
 
@@ -84,17 +83,8 @@ class Recorder:
         self.versions, self.options = versions, dict(options or {})
         n, props = len(scenario.robots), len(scenario.props)
         capacity = min(scenario.last_iteration + 1, 4096)
-        self._columns = {
-            "time": Column((), float, capacity),
-            "pose": Column((3, n), float, capacity),
-            "command": Column((scenario.inputs, n), float, capacity),
-            "command_time": Column((), float, capacity),
-            "prop_pose": Column((3, props), float, capacity),
-            "effort": Column((n,), float, capacity),
-            "velocity": Column((3, n), float, capacity),
-            "prop_velocity": Column((3, props), float, capacity),
-            "work": Column((len(WORK),), float, capacity),
-        }
+        shapes = shapes_of(n, props, scenario.inputs)
+        self._columns = {name: Column(row, float, capacity) for name, row in shapes.items()}
         self._places: list[tuple[str, NDArray[Any]]] = []  # where rows of columns are written
         self._room = 0  # the number of rows that all of them have
         self._capacity = capacity
@@ -176,13 +166,6 @@ class Recorder:
     def messages(self) -> tuple[NDArray[np.void], Sequence[str]]:
         """Return all messages so far, and the texts to which their field `content` refers."""
         return self._messages.upto(self._message_count), self._contents
-
-    def readings(self, rows: int, name: str, robot: int) -> NDArray[Any] | None:
-        """Return a sensor's readings on a robot, (rows, ...); None if they are not recorded."""
-        column, robots = self._sensors.get(name), self.sensor_robots.get(name, ())
-        if column is None or robot not in robots:
-            return None
-        return column.upto(rows)[:, robots.index(robot)]
 
     def sensors(self) -> dict[str, NDArray[Any]]:
         """Return the readings so far by the names of sensors; see `Record.sensors`."""

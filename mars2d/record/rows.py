@@ -16,7 +16,7 @@ from mars2d.core.arrays import sealed
 from mars2d.core.errors import InputError, UnknownNameError, counted, nearest
 from mars2d.core.scene import Scene
 from mars2d.record.contact import CONTACT, met, pair_forces, rows_of
-from mars2d.record.energy import Energy, Momentum, energy_of, momentum_of
+from mars2d.record.energy import WORK, Energy, Momentum, energy_of, momentum_of
 from mars2d.record.frame import Frame
 from mars2d.record.impacts import impacts
 from mars2d.record.interventions import Change, Intervention, Leap, leaps_of
@@ -25,11 +25,24 @@ from mars2d.scenario.scenario import Scenario
 
 Float = NDArray[np.float64]
 
-COLUMNS = (
-    "time", "pose", "command", "command_time", "prop_pose", "effort", "velocity", "prop_velocity",
-    "work",
-)  # fmt: skip
-"""The columns of every record, with a row for each control step."""
+COLUMNS: dict[str, tuple[str, ...]] = {
+    "time": (),
+    "pose": ("axis", "robot"),
+    "command": ("input", "robot"),
+    "command_time": (),
+    "prop_pose": ("axis", "prop"),
+    "effort": ("robot",),
+    "velocity": ("axis", "robot"),
+    "prop_velocity": ("axis", "prop"),
+    "work": ("work_of",),
+}
+"""The columns of every record, with a row for each control step, and the axes of a row."""
+
+
+def shapes_of(robots: int, props: int, inputs: int) -> dict[str, tuple[int, ...]]:
+    """Return the shape of a row of each of `COLUMNS`; inputs: the numbers of a command."""
+    sizes = {"axis": 3, "input": inputs, "robot": robots, "prop": props, "work_of": len(WORK)}
+    return {name: tuple(sizes[axis] for axis in axes) for name, axes in COLUMNS.items()}
 
 
 class _BySensor(dict[str, Any]):
@@ -196,7 +209,6 @@ class Rows:
             contacts=self.contacts[slice(*np.searchsorted(self.contact_rows, [row, row + 1]))],
             effort=self.effort[row],
             prop_path=self.prop_pose[:row],
-            effort_path=self.effort[:row],
             contact_log=lambda: self.contacts[: np.searchsorted(self.contact_rows, row, "right")],
             messages=in_flight(
                 self.messages,
@@ -206,7 +218,6 @@ class Rows:
             ),
             command_path=self.command[:row],
             message_log=lambda: (self.messages, self.contents),
-            reading_path=lambda name, robot: self._readings_before(row, name, robot),
             exact_velocity=np.hstack([self.velocity[row], self.prop_velocity[row]]),
             work=self.work[row],
             leaps=self._leaps[: bisect_left(self._leaps, (row + 1, 0))],
@@ -240,11 +251,6 @@ class Rows:
     def pair_forces(self) -> NDArray[np.void]:
         """The mean force of each pair in each control step in which it touched, dtype FORCE."""
         return pair_forces(self.contacts, self.contact_rows, self.scenario.sampling_time)
-
-    def _readings_before(self, row: int, name: str, robot: int) -> NDArray[Any] | None:
-        """Return a sensor's readings on a robot before a row, (row, ...); None if not recorded."""
-        robots = self.sensor_robots.get(name, ())
-        return self.sensors[name][:row, robots.index(robot)] if robot in robots else None
 
     @cached_property
     def _longest_flight(self) -> float:

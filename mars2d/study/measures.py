@@ -173,10 +173,7 @@ def _plain(value: Any) -> float | str | None:
         return _word(value)
     if not isinstance(value, (numbers.Real, np.bool_)):
         raise InputError(EXPECTED)
-    try:
-        number = float(value)
-    except (OverflowError, TypeError, ValueError):
-        raise InputError(f"{EXPECTED}; this one is beyond a float") from None
+    number = float(value)
     if isinstance(value, (numbers.Integral, np.bool_)) and int(value) == number:
         return int(value)
     return None if math.isnan(number) else number

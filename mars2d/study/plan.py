@@ -178,10 +178,7 @@ def _spaced(text: str, first: str, last: str, count: str) -> list[float]:
     if not 2 <= number <= MAX_RUNS:
         expected = f"FIRST:LAST:COUNT with a count of 2 to {MAX_RUNS:,}"
         raise InputError(f"--set {text}: expected {expected}")
-    for part in (first, last):
-        real(f"--set {text}", float(part))
-    # Numbers that are 0 as a float become 0: the exact 1e-99999999 would take for ever.
-    start, end = (Fraction(part if float(part) else 0) for part in (first, last))
+    start, end = (Fraction(str(real(f"--set {text}", float(part)))) for part in (first, last))
     if start == end:
         raise InputError(f"--set {text}: all {number} values would be the same")
     values = [start + (end - start) * k / (number - 1) for k in range(number)]

@@ -6,9 +6,8 @@ that are nan or infinite are taken as missing and left out; `count` is the numbe
 
 from __future__ import annotations
 
-from bisect import bisect_left
 from dataclasses import dataclass
-from math import ceil, isfinite, nan, sqrt
+from math import ceil, nan, sqrt
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,9 +15,6 @@ from numpy.typing import ArrayLike, NDArray
 from mars2d.core.description import real, wrong
 
 Float = NDArray[np.float64]
-
-NORMAL_FROM = 1_000_000
-"""The number of observations from which on Student's quantile is that of the normal one."""
 
 
 @dataclass(frozen=True)
@@ -129,32 +125,18 @@ def shared(values: ArrayLike, confidence: float = 0.95) -> Interval:
 def seeds_needed(values: ArrayLike, half_width: float, confidence: float = 0.95) -> int | None:
     """Return how many runs give an interval of at most this half width, if they vary like these.
 
-    values: (n,) of the runs so far; None is returned for fewer than two. The result is the smallest
-    n with t s / sqrt(n) <= half_width, where Student's t is that of n runs and s is the standard
-    deviation of the values. The forecast is as good as the estimate s.
-    Source: A. M. Law, Simulation Modeling and Analysis, 5th ed. (2015), section 9.4.1.
+    values: (n,) of the runs so far; None is returned for fewer than two. The result is about the
+    smallest n with t s / sqrt(n) <= half_width, where Student's t is that of n runs and s is the
+    standard deviation of the values. The forecast is as good as the estimate s.
+    Source: W. C. Guenther, The American Statistician 35 (1981).
 
     >>> seeds_needed([9.0, 10.0, 11.0], half_width=0.5)
     18
     """
-    from scipy.special import stdtrit
-
-    confidence = confident(confidence)
-    wanted = _width(half_width)
-    found = _finite(values)
+    z, wanted, found = _normal(confident(confidence)), _width(half_width), _finite(values)
     if len(found) < 2:
         return None
-    with np.errstate(over="ignore"):
-        deviation = float(found.std(ddof=1)) if np.ptp(found) else 0.0
-    least = (_normal(confidence) * deviation / wanted) ** 2  # t is larger than the normal quantile
-    if not isfinite(least) or least > NORMAL_FROM:
-        return ceil(least) if isfinite(least) else None
-    counts = range(max(2, ceil(least)), 2 * NORMAL_FROM)
-
-    def enough(n: int) -> bool:
-        return float(stdtrit(n - 1, (1 + confidence) / 2)) * deviation / sqrt(n) <= wanted
-
-    return counts[bisect_left(counts, True, key=enough)]
+    return ceil((z * float(found.std(ddof=1)) / wanted) ** 2 + z**2 / 2)
 
 
 def seeds_for_share(share: float, half_width: float, confidence: float = 0.95) -> int:
@@ -163,10 +145,9 @@ def seeds_for_share(share: float, half_width: float, confidence: float = 0.95) -
     >>> seeds_for_share(0.5, 0.1)
     93
     """
-    z = _normal(confident(confidence))
-    wanted = _width(half_width)
-    counts = range(1, 2**50)
-    return counts[bisect_left(counts, True, key=lambda n: _wilson_half(share, n, z) <= wanted)]
+    z, w, pq = _normal(confident(confidence)), _width(half_width), share * (1 - share)
+    root = sqrt(pq**2 + (1 - 4 * pq) * w**2)  # Wilson's half width is w at a root of a quadratic
+    return max(ceil(z**2 * (pq - 2 * w**2 + root) / (2 * w**2)), 1)
 
 
 # -- helpers ---------------------------------------------------------------------------------------

@@ -94,24 +94,18 @@ def _notes(table: Table, wanted: Sequence[Estimate]) -> str:
 
 
 def _enough(table: Table, wanted: Sequence[Estimate], confidence: float) -> str:
-    """Say how many seeds would be enough for each mean, and for the shares of each measure."""
-    groups: dict[str, list[Estimate]] = {}
-    for each in wanted:
-        groups.setdefault(f"shares of {each.measure}" if each.share else each.label, []).append(
-            each
-        )
+    """Say how many seeds would be enough for each mean and share."""
     lines, unsaid = [], 0
-    for label, group in groups.items():
+    for each in wanted:
         needed = [
-            (_needed(estimate, values, confidence), len(values), point)
+            (_needed(each, values, confidence), len(values), point)
             for point, results in table.points().items()
-            for estimate in group
-            for values in [estimate.values(results)]
+            for values in [each.values(results)]
         ]
         unsaid += sum(not seeds for seeds, *_ in needed)
         most = max(needed, key=lambda each: each[0], default=(0.0, 0, ()))
         if most[0]:
-            lines.append((group[0].label if len(group) == 1 else label, _seeds(table, *most)))
+            lines.append((each.label, _seeds(table, *most)))
     if not lines:
         return ""
     room = max(len(label) for label, _ in lines)

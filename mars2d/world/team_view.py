@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import partial
 from typing import Any, NoReturn, Self, cast
 
 import numpy as np
@@ -157,11 +156,9 @@ class WorldView(Uncopied):
             effort=now.effort,
             contact_log=now.recorder.contacts,
             prop_path=now.history.prop_pose[: now.iteration],
-            effort_path=now.history.effort[: now.iteration],
             messages=now.recorder.in_flight(now.time),
             command_path=now.history.command[: now.iteration],
             message_log=now.recorder.messages,
-            reading_path=partial(now.recorder.readings, now.iteration),
             exact_velocity=np.hstack([now.velocity, now.prop_velocity]),
             work=now.work,
             leaps=leaps_of(now.operator.log),

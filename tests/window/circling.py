@@ -81,7 +81,6 @@ class Circling:
             contact_log=lambda: self.touches(1, k),
             messages=self.messages(k),
             draw_addons=draw_mark if self.marked else None,
-            effort_path=np.full((k, len(self.scenario.robots)), 1.0 if self.pressed else 0.0),
         )
 
     def touches(self, first, last):

@@ -156,7 +156,7 @@ def test_between_two_frames_props_move_and_contacts_are_those_under_way():
     seen = between(first, second, 0.45)
     np.testing.assert_allclose(seen.prop_pose, np.full((3, 1), 1.0))
     np.testing.assert_array_equal(seen.contacts, second.contacts)
-    assert len(seen.contact_log()) == len(seen.path) == len(seen.effort_path) == 5
+    assert len(seen.contact_log()) == len(seen.path) == 5
 
 
 # -- keys -----------------------------------------------------------------------------------------

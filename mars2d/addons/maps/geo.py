@@ -58,6 +58,7 @@ def read_geojson(path: Path, unit: Unit | None) -> Drawing:
 
 def _features(data: Any, layer: str) -> Iterator[tuple[str, shapely.Geometry]]:
     """Yield the single geometries of GeoJSON with the layer of each."""
+    import shapely
     from shapely.geometry import shape
 
     kind = data.get("type") if isinstance(data, dict) else None
@@ -74,12 +75,5 @@ def _features(data: Any, layer: str) -> Iterator[tuple[str, shapely.Geometry]]:
             whole = shape(data)
         except Exception as error:  # shapely raises many kinds of errors
             raise InputError(f"{shown(data)}: expected GeoJSON, such as a Polygon") from error
-        yield from ((layer, part) for part in _single(whole))
-
-
-def _single(geometry: shapely.Geometry) -> Iterator[shapely.Geometry]:
-    """Yield the parts of a geometry that have none; collections hold collections."""
-    for part in getattr(geometry, "geoms", ()):
-        yield from _single(part)
-    if not hasattr(geometry, "geoms"):
-        yield geometry
+        parts = shapely.get_parts(shapely.get_parts(whole)).tolist()  # of multiple ones in lists
+        yield from ((layer, part) for part in parts)

@@ -15,7 +15,6 @@ from mars2d.core.scene import (
     Line,
     Polygon,
     Scene,
-    Shape,
     Text,
     split_wake_style,
 )
@@ -63,9 +62,6 @@ def paint(
                 artist.set_zorder(level)
                 artist.set_in_layout(False)  # it stays within the axes
                 ax.add_artist(artist)
-    if scene.shapes:
-        ax.update_datalim(np.vstack([_corners(shape) for shape in scene.shapes]))
-        ax.autoscale_view()
 
 
 def artists(
@@ -97,17 +93,6 @@ def artists(
     else:
         radius = shape.radius + shape.pixels * scale / ppm
         yield patches.Circle(shape.center, radius, linewidth=width, **colors)
-
-
-def _corners(shape: Shape) -> Float:
-    """Return points (k, 2) whose bounding box holds a shape, metres."""
-    if isinstance(shape, Circle):
-        return np.add(shape.center, [[-shape.radius] * 2, [shape.radius] * 2])
-    if isinstance(shape, Image):
-        return np.reshape(shape.bounds, (2, 2)).T
-    if isinstance(shape, Arrow):
-        return np.array([shape.tail, shape.tip])
-    return np.reshape(shape.position, (1, 2)) if isinstance(shape, Text) else shape.points
 
 
 def _show(shape: Image, ax: Axes, level: float) -> None:

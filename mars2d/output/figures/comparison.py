@@ -89,7 +89,7 @@ def plot_comparison(records: Mapping[str, Rows]) -> Figure:
     that pyplot does not know of.
     """
     views = [View.of(record, len(record) - 1) for record in records.values()]
-    view = reduce(lambda a, b: a.union((b.xmin, b.xmax, b.ymin, b.ymax)), views)
+    view = reduce(View.union, views)
     _, height = view.inches(3.2, 4.2)
     figure = new_figure(WIDTH, height + DRIFT + 2.6)
     places, heights = [[*MODES], ["drift"] * len(MODES)], [height, DRIFT]

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Self
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,8 +17,11 @@ if TYPE_CHECKING:
 Float = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class View:
+RATIO = 8.0
+"""The largest ratio of a view's sides; a longer corridor gets margins."""
+
+
+class View(NamedTuple):
     """The part of the plane that is drawn, metres."""
 
     xmin: float
@@ -26,43 +29,27 @@ class View:
     ymin: float
     ymax: float
 
-    FARTHEST = 1e100
-    """The greatest coordinate that is drawn, metres: squares of larger numbers overflow."""
-
-    RATIO = 8.0
-    """The largest ratio of the sides; a longer corridor gets margins."""
-
     @classmethod
     def of(cls, record: Rows, row: int) -> Self:
         """Return the view of the workspace, and of all paths until `row`, with a margin."""
         check_rows(record)
         paths = record.pose[: row + 1], record.prop_pose[: row + 1]
-        farthest = max(float(np.abs(path[:, :2]).max(initial=0.0)) for path in paths)
-        if farthest > cls.FARTHEST:
-            raise InputError(f"bodies are up to {farthest:.2g} m away: too far to be drawn")
         return cls.around(record.scenario, *paths)
 
     @classmethod
     def around(cls, scenario: Scenario, pose: Float, prop_pose: Float) -> Self:
         """Return the view of the workspace and of poses (T, 3, n) and (T, 3, p), with a margin."""
-        xy = pose[:, :2]
-        low, high = xy.min(axis=0), xy.max(axis=0)  # (2, n)
-        reach = np.array([robot.radius + abs(robot.center_offset) for robot in scenario.robots])
-        if scenario.props:
-            props = prop_pose[:, :2]
-            low = np.hstack([low, props.min(axis=0)])
-            high = np.hstack([high, props.max(axis=0)])
-            reach = np.append(reach, [prop.shape.reach for prop in scenario.props])
+        paths = [path[:, :2] for path in (pose, prop_pose)]
+        reach = np.array([body.shape.reach for body in scenario.bodies])
+        low = np.hstack([path.min(axis=0) for path in paths]) - reach  # (2, n + p)
+        high = np.hstack([path.max(axis=0) for path in paths]) + reach
         xmin, xmax, ymin, ymax = scenario.bounds
-        xmin = min(xmin, float((low[0] - reach).min()))
-        xmax = max(xmax, float((high[0] + reach).max()))
-        ymin = min(ymin, float((low[1] - reach).min()))
-        ymax = max(ymax, float((high[1] + reach).max()))
-        margin = 0.02 * max(xmax - xmin, ymax - ymin)
-        view = cls(xmin - margin, xmax + margin, ymin - margin, ymax + margin)
-        more_x = max(0.0, view.height / cls.RATIO - view.width) / 2
-        more_y = max(0.0, view.width / cls.RATIO - view.height) / 2
-        return cls(view.xmin - more_x, view.xmax + more_x, view.ymin - more_y, view.ymax + more_y)
+        low = np.minimum(low.min(axis=1), (xmin, ymin))
+        high = np.maximum(high.max(axis=1), (xmax, ymax))
+        size = high - low + 0.04 * (high - low).max()
+        size = np.maximum(size, size[::-1] / RATIO)
+        low, high = (low + high - size) / 2, (low + high + size) / 2
+        return cls(*np.stack([low, high], axis=1).ravel().tolist())
 
     @property
     def width(self) -> float:
@@ -74,14 +61,10 @@ class View:
         """From bottom to top, metres."""
         return self.ymax - self.ymin
 
-    def union(self, limits: tuple[float, float, float, float]) -> Self:
-        """Return the view extended to hold (xmin, xmax, ymin, ymax), metres."""
-        xmin, xmax, ymin, ymax = limits
-        return replace(
-            self,
-            xmin=min(self.xmin, xmin), xmax=max(self.xmax, xmax),
-            ymin=min(self.ymin, ymin), ymax=max(self.ymax, ymax),
-        )  # fmt: skip
+    def union(self, other: Sequence[float]) -> Self:
+        """Return the view extended to hold another, or (xmin, xmax, ymin, ymax), metres."""
+        pick = (min, max, min, max)
+        return type(self)(*(f(a, b) for f, a, b in zip(pick, self, other, strict=True)))
 
     def inches(self, width: float, height: float) -> tuple[float, float]:
         """Return the largest (width, height) in the view's proportions that fits, inches."""

@@ -111,16 +111,13 @@ def plot_snapshots(record: Rows, times: ArrayLike, *, layers: Layers | None = No
     return axes[0].get_figure()  # type: ignore[return-value]
 
 
-def new_axes(
-    view: View, count: int = 1, cols: int = 1, beside: float = 0.0,
-    room: tuple[float, float] = ROOM,
-) -> list[Axes]:  # fmt: skip
+def new_axes(view: View, count: int = 1, cols: int = 1, beside: float = 0.0) -> list[Axes]:
     """Return axes for drawings of one view in a new figure, in columns, each as large as fits.
 
-    beside: the room at the right, for a legend. room: for one drawing. All in inches.
+    beside: the room at the right, for a legend, inches.
     """
     one, unit, lines = count == 1, points() / 10, ceil(count / cols)
-    width, height = view.inches(*(room if one else (min(PANEL_ROOM, 3 * PANEL_ROOM / cols),) * 2))
+    width, height = view.inches(*(ROOM if one else (min(PANEL_ROOM, 3 * PANEL_ROOM / cols),) * 2))
     left, below, above = 0.65 * unit, 0.55 * unit, (0.55 if one else 0.75) * unit
     across, up = width + 0.2 * unit, height + 0.4 * unit
     wide = left + cols * across + beside
@@ -198,12 +195,7 @@ def check_axes(ax: object) -> None:
 
 def dress(ax: Axes, scenario: Scenario, view: View, layers: Layers | None = None) -> None:
     """Set limits, grid and ticks for an experiment."""
-    dress_plane(ax, view, grid=(layers or layers_of(scenario)).grid)
-    ax.spines[:].set(visible=scenario.workspace is None)
-
-
-def dress_plane(ax: Axes, view: View, *, grid: bool = True) -> None:
-    """Set limits, grid and ticks of a part of the plane."""
+    grid = (layers or layers_of(scenario)).grid
     ax.set_aspect("equal")
     ax.set_xlim(view.xmin, view.xmax)
     ax.set_ylim(view.ymin, view.ymax)
@@ -216,7 +208,7 @@ def dress_plane(ax: Axes, view: View, *, grid: bool = True) -> None:
     ax.grid(visible=grid)
     if grid:
         ax.grid(color=GRID, linewidth=0.6)
-    ax.spines[:].set(color=GRID, linewidth=0.8)
+    ax.spines[:].set(color=GRID, linewidth=0.8, visible=scenario.workspace is None)
 
 
 def style_ticks(ax: Axes) -> None:

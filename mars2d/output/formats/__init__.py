@@ -10,9 +10,10 @@ from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mars2d.core.errors import InputError, Mars2dError, one_line, shown
+from mars2d.core.description import real
+from mars2d.core.errors import InputError, shown
 from mars2d.core.files import file_beside
-from mars2d.output.formats.guard import check_limit, reading
+from mars2d.output.formats.guard import reading
 from mars2d.record.rows import Rows
 
 if TYPE_CHECKING:
@@ -55,24 +56,15 @@ SUFFIXES = tuple(suffix for suffix in FORMATS if suffix != EXPORT)
 def save(record: Rows, path: str | Path) -> Path:
     """Write a record in the format that the path's ending names; see `Record.save`."""
     target = _path(path)
-    try:
-        _module(target).write(record, target)
-    except Mars2dError:
-        raise
-    except Exception as error:  # of scipy, such as for more than 2 GB
-        raise InputError(
-            f"{target}: can't be written: {one_line(error)}; save it as .npz"
-        ) from error
+    _module(target).write(record, target)
     return target
 
 
 def load(path: str | Path, largest: float) -> Rows:
     """Read a record in the format that the path's ending names; see `mars2d.load`."""
     source = _path(path)
-    limit = check_limit(largest)
+    limit = int(real("largest", largest, "a number of bytes"))
     with reading(source):
-        if source.is_fifo():  # it may never end
-            raise InputError(f"{source}: not a file; expected a record, as run.npz")
         file_beside(source, None, "a record", SUFFIXES)
     module = _module(source)
     if source.suffix.lower() == EXPORT:

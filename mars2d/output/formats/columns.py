@@ -18,11 +18,9 @@ from mars2d.record.rows import Rows
 class About(NamedTuple):
     """What a column of a record is.
 
-    axes: their names, after that of time. units: of what is along the first of these axes; of a
-    command they depend on the drives.
+    units: of what is along the first axis of its rows; of a command they depend on the drives.
     """
 
-    axes: tuple[str, ...]
     units: tuple[str, ...]
     meaning: str
 
@@ -30,30 +28,20 @@ class About(NamedTuple):
 METRES, SPEEDS = ("m", "m", "rad"), ("m/s", "m/s", "rad/s")
 
 ABOUT = {
-    "time": About((), ("s",), "time"),
-    "pose": About(("axis", "robot"), METRES, "poses of the robots: x, y, heading"),
-    "command": About(("input", "robot"), (), "commands issued"),
-    "command_time": About((), ("s",), "when the command takes effect"),
-    "prop_pose": About(("axis", "prop"), METRES, "poses of the props: x, y, heading"),
-    "effort": About(
-        ("robot",),
-        ("1",),
-        "largest share of its bounds that a drive used in the control step before",
-    ),
-    "velocity": About(("axis", "robot"), SPEEDS, "velocities of the robots: x, y, heading"),
-    "prop_velocity": About(("axis", "prop"), SPEEDS, "velocities of the props: x, y, heading"),
-    "work": About(("work_of",), ("J",), "work on all bodies since the start"),
+    "time": About(("s",), "time"),
+    "pose": About(METRES, "poses of the robots: x, y, heading"),
+    "command": About((), "commands issued"),
+    "command_time": About(("s",), "when the command takes effect"),
+    "prop_pose": About(METRES, "poses of the props: x, y, heading"),
+    "effort": About(("1",), "largest share of its bounds that a drive used in the step before"),
+    "velocity": About(SPEEDS, "velocities of the robots: x, y, heading"),
+    "prop_velocity": About(SPEEDS, "velocities of the props: x, y, heading"),
+    "work": About(("J",), "work on all bodies since the start"),
 }
 """By name: all of `COLUMNS`."""
 
 POSE_UNITS = dict(zip(("x", "y", "theta"), METRES, strict=True))
 """The units of a pose's three numbers, in order."""
-
-
-def shapes_of(robots: int, props: int, inputs: int) -> dict[str, tuple[int, ...]]:
-    """Return the shape of a row of each of `COLUMNS`; inputs: the numbers of a command."""
-    sizes = {"axis": 3, "input": inputs, "robot": robots, "prop": props, "work_of": len(WORK)}
-    return {name: tuple(sizes[axis] for axis in about.axes) for name, about in ABOUT.items()}
 
 
 CONTACT_UNITS = {

@@ -17,7 +17,7 @@ from mars2d.output.formats.columns import (
 )
 from mars2d.record.energy import WORK
 from mars2d.record.message import STATUS
-from mars2d.record.rows import Rows
+from mars2d.record.rows import COLUMNS, Rows
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -79,7 +79,7 @@ def _told(record: Rows, column: str) -> tuple[str, tuple[str, ...], str, str]:
     """Return the name of a column's variable, its dimensions, its unit and its long name."""
     if column in ABOUT:
         units = ", ".join(units_in(record, column))
-        return column, ("time", *ABOUT[column].axes), units, ABOUT[column].meaning
+        return column, ("time", *COLUMNS[column]), units, ABOUT[column].meaning
     family, _, name = column.partition(":")
     if family == "sensor":
         all_carry = len(record.sensor_robots[name]) == len(record.scenario.robots)

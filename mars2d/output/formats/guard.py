@@ -6,11 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from mars2d.core.description import real, wrong
 from mars2d.core.errors import InputError, Mars2dError
-
-MAX_LIMIT = 2**62
-"""The highest limit of data that can be asked for, bytes."""
 
 
 @contextmanager
@@ -28,13 +24,6 @@ def reading(path: Path) -> Iterator[None]:
         raise InputError(f"{path}: can't be read: {error.strerror or error}") from error
     except Exception as error:  # zip, zlib, numpy, json and mcap raise their own
         raise InputError(f"{path}: not a record of MARS2D, or damaged") from error
-
-
-def check_limit(largest: float) -> int:
-    """Return a limit in whole bytes. Raises InputError where it is none."""
-    if not 1 <= real("largest", largest, "a number of bytes") <= MAX_LIMIT:
-        raise wrong("largest", largest, "a number of bytes, from 1 on")
-    return int(largest)
 
 
 def check_size(path: Path, size: int, largest: int) -> None:

@@ -62,7 +62,8 @@ class Layer:
     the animation says. at_first: whether it is on at first. stands: whether it is the same in all
     frames of a scenario; a painter may keep it. each: in place of shapes, draws one body's part of
     the layer, given its index in `Scenario.bodies` and its pose (3,), if it depends on nothing
-    else. along: other layers that its key switches with it, by name.
+    else. upright: whether that does not turn with the body. along: other layers that its key
+    switches with it, by name.
     """
 
     name: str
@@ -73,6 +74,7 @@ class Layer:
     at_first: Callable[[Animation], bool] = lambda _: True
     stands: bool = False
     each: Callable[[Scene, Scenario, int, Float], None] | None = None
+    upright: bool = False
     along: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
@@ -127,7 +129,7 @@ LAYERS: list[Layer] = [
     ),
     Layer(
         name="names", title="Names", key="i", at_first=attrgetter("names"),
-        each=draw_name,
+        each=draw_name, upright=True,
     ),
 ]  # fmt: skip
 """All layers, the lowest first. A new one is a function in a file of its own, and a line here."""

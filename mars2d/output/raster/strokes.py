@@ -15,26 +15,23 @@ Box = tuple[float, float, float, float]
 """xmin, ymin, xmax, ymax."""
 
 
-def dashes(points: Float, pattern: tuple[float, ...], start: float = 0.0) -> list[Float]:
+def dashes(points: Float, pattern: tuple[float, ...]) -> list[Float]:
     """Return the drawn pieces of a polyline (k, 2), each again a polyline.
 
-    pattern: lengths on, off, on, off ... start: how far along the pattern the first point lies, so
-    that a path which grows goes on where its dashes ended.
+    pattern: lengths on, off, on, off ...
     """
-    along = arc_length(points) + start
+    along = arc_length(points)
     total = float(along[-1]) if len(along) else 0.0
-    if len(points) < 2 or total <= start:
+    if total <= 0:
         return []
-    period = sum(pattern)
-    first = np.floor(start / period)
-    periods = np.arange(first, np.floor(total / period) + 1) * period
+    periods = np.arange(0.0, total, sum(pattern))
     if len(periods) > 20_000:  # zoomed in on a long path: dashes would take too long
         return [points]
     pieces: list[Float] = []
     offset = 0.0
     for on, off in zip(pattern[::2], pattern[1::2], strict=True):
-        for begin in (periods + offset).tolist():
-            low, high = max(begin, start), min(begin + on, total)
+        for low in (periods + offset).tolist():
+            high = min(low + on, total)
             if high > low:
                 inner = points[(along > low) & (along < high)]
                 ends = [

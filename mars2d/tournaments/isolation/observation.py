@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mars2d.core.errors import LawError
 from mars2d.core.streams import stream
 from mars2d.scenario.robot import Robot
 from mars2d.scenario.scenario import Scenario
@@ -27,9 +26,6 @@ if TYPE_CHECKING:
     from mars2d.world.simulation import Simulation
 
 Float = NDArray[np.float64]
-
-SHARED_PACKAGES = ("builtins", "numpy", "mars2d")
-"""The packages whose objects a law's process can unpickle."""
 
 
 # -- once ------------------------------------------------------------------------------------------
@@ -130,7 +126,10 @@ def look(world: Simulation, robots: Sequence[int]) -> dict[str, Any]:
         "contacts": contacts.tobytes(),
         "neighbours": neighbours,
         "readings": {
-            i: {each.key: _reading(world, i, each.key) for each in scenario.robots[i].sensors}
+            i: {
+                each.key: getattr(world.robots[i].sense, each.key)
+                for each in scenario.robots[i].sensors
+            }
             for i in robots
         },
         "inbox": {i: world.channel.inbox(i) for i in robots} if talks else {},
@@ -140,26 +139,3 @@ def look(world: Simulation, robots: Sequence[int]) -> dict[str, Any]:
 def _hide(rows: Float, seen: Collection[int]) -> None:
     """Hide the columns of all robots but those that are seen."""
     rows[..., [i for i in range(rows.shape[-1]) if i not in seen]] = np.nan
-
-
-def _reading(world: Simulation, robot: int, name: str) -> Any:
-    """Return a reading if a law's process can unpickle it; raise LawError if not."""
-    reading = getattr(world.robots[robot].sense, name)
-    if foreign := _foreign(reading):
-        raise LawError(
-            f"sensor {name!r} reads a {foreign}, which can't be handed to a law in another "
-            "process: expected numbers, text, arrays, or lists, tuples and dicts of these"
-        )
-    return reading
-
-
-def _foreign(reading: Any) -> str:
-    """Return the name of a class in a reading that a law's process does not know, or ""."""
-    kind = type(reading)
-    if kind in (list, tuple):
-        return next(filter(None, map(_foreign, reading)), "")
-    if kind is dict:
-        return _foreign([*reading, *reading.values()])
-    other = reading.dtype.hasobject if isinstance(reading, np.ndarray) else callable(reading)
-    known = kind.__module__.partition(".")[0] in SHARED_PACKAGES
-    return kind.__name__ if other or not known else ""

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import base64
-import zlib
+import json
 from itertools import accumulate
 from pathlib import Path
 
 from mars2d.core.errors import one_line
 from mars2d.core.files import atomic_write
-from mars2d.output.pages.replay import colors, filled, player
+from mars2d.output.pages.replay import filled, look, player
 from mars2d.scenario.options import options_in_words
 from mars2d.tournaments.league import UNPROTECTED, Tournament
 from mars2d.tournaments.page.tables import (
@@ -38,6 +37,9 @@ def league_page(tournament: Tournament) -> str:
     kept = sum(size <= MAX_REPLAYS_SIZE for size in sizes)
     inside, title = read("inside.js"), tournament.schedule.title
     words = {
+        "title": escaped(title),
+        "style": look() + read("page.css"),
+        "script": f"(() => {{\n{read('league.js')}}})();",
         "facts": terms(_facts(tournament, [*replays][kept:])),
         "standings": standing_tables(tournament),
         "grades": grades(tournament),
@@ -50,7 +52,7 @@ def league_page(tournament: Tournament) -> str:
             for number, replay in [*replays.items()][:kept]
         ),
     }
-    return _page(title, filled(read("league.html"), words), read("league.js"))
+    return filled(read("league.html"), words)
 
 
 def save_page(page: str, path: Path) -> None:
@@ -59,21 +61,9 @@ def save_page(page: str, path: Path) -> None:
         file.write(page.encode("utf-8", errors="replace"))
 
 
-def _page(title: str, body: str, script: str) -> str:
-    """Return a page. script: what it runs besides."""
-    words = {
-        "title": escaped(title),
-        "style": colors() + read("page.css"),
-        "body": body,
-        "script": f"(() => {{\n{read('page.js')}{script}}})();",
-    }
-    return filled(read("page.html"), words)
-
-
 def _player(title: str, inside: str) -> str:
-    """Return the page that plays a replay, packed: the parts before and after its data."""
-    parts = player(title, "\0", inside).split("\0")
-    return " ".join(base64.b64encode(zlib.compress(part.encode(), 9)).decode() for part in parts)
+    """Return the page that plays a replay, as JSON: the parts before and after its data."""
+    return json.dumps(player(title, "\0", inside).split("\0")).replace("<", "\\u003c")
 
 
 def _facts(tournament: Tournament, left_out: list[int]) -> dict[str, str]:

@@ -1,5 +1,19 @@
-
 // The page of a tournament: sorts its tables, filters its matches and plays its replays.
+"use strict";
+
+const find = (id) => document.getElementById(id);
+
+// Dark or light: as the reader's system is, until the button is used.
+function setDark(dark) {
+  document.documentElement.classList.toggle("dark", dark);
+  find("dark").setAttribute("aria-pressed", dark);
+}
+
+const scheme = matchMedia("(prefers-color-scheme: dark)");
+scheme.addEventListener("change", (event) => setDark(event.matches));
+find("dark").addEventListener("click", () => setDark(find("dark").getAttribute("aria-pressed") !== "true"));
+setDark(scheme.matches);
+
 const all = (selector, within = document) => [...within.querySelectorAll(selector)];
 const textOf = (row, cell) => row.querySelector(cell)?.textContent ?? "";
 
@@ -73,12 +87,6 @@ let shown = null; // the row whose match is shown
 
 const numberOf = (row) => textOf(row, ".head");
 
-async function unpacked(text) {
-  const bytes = Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return new Response(stream).text();
-}
-
 function element(name, ...content) {
   const made = document.createElement(name);
   made.append(...content);
@@ -86,24 +94,19 @@ function element(name, ...content) {
 }
 
 // A replay is a page in a sandboxed frame: the player, with the match's data.
-async function staged(row) {
+function staged(row) {
   const data = find(`replay-${numberOf(row)}`)?.textContent;
   if (!data) return element("p", "There is no replay: it was left out, or the match was over before it began.");
-  try {
-    const [before, after] = await Promise.all(find("player").textContent.split(" ").map(unpacked));
-    const frame = element("iframe");
-    frame.setAttribute("sandbox", "allow-scripts");
-    frame.title = `Replay of match ${find("showTitle").textContent}`;
-    frame.addEventListener("load", () => frame.focus()); // so that keys go to the replay
-    const dark = document.documentElement.classList.contains("dark");
-    frame.srcdoc = before.replace("<html ", dark ? '<html class="dark" ' : "<html ") + data + after;
-    return frame;
-  } catch {
-    return element("p", "The replay can't be unpacked: this file is damaged, or the browser is older than 2023.");
-  }
+  const [before, after] = JSON.parse(find("player").textContent), frame = element("iframe");
+  frame.setAttribute("sandbox", "allow-scripts");
+  frame.title = `Replay of match ${find("showTitle").textContent}`;
+  frame.addEventListener("load", () => frame.focus()); // so that keys go to the replay
+  const dark = document.documentElement.classList.contains("dark");
+  frame.srcdoc = before.replace("<html ", dark ? '<html class="dark" ' : "<html ") + data + after;
+  return frame;
 }
 
-async function show(row) {
+function show(row) {
   shown = row;
   const rows = [...body.rows].filter((each) => !each.hidden), at = rows.indexOf(row);
   const head = row.closest("table").tHead.rows[0];
@@ -120,8 +123,7 @@ async function show(row) {
   find("next").disabled = at === rows.length - 1;
   if (!find("show").open) find("show").showModal();
   history.replaceState(null, "", `#match-${numberOf(row)}`);
-  const content = await staged(row);
-  if (shown !== row) return; // another one was picked meanwhile
+  const content = staged(row);
   find("stage").replaceChildren(content);
   if (content.nodeName !== "IFRAME") find("close").focus();
 }

@@ -107,8 +107,8 @@ def grades(tournament: Tournament) -> str:
 
 # -- who beat whom ---------------------------------------------------------------------------------
 
-STEPS = 10
-"""How many steps there are from the colour of no points to that of all."""
+STRENGTH = 110
+"""How strong colours are, per cent for a share that is 1 from a half."""
 
 
 def matrix(tournament: Tournament) -> str:
@@ -145,7 +145,8 @@ def _share_cell(law: str, rival: str, points: Sequence[float]) -> str:
     share = sum(points) / len(points)
     title = f"{law} against {rival}: {100 * share:.0f} % of the points in {matches_of(len(points))}"
     return (
-        f'<td><button class="s{round(share * STEPS)}" data-law="{escaped(law)}" '
+        f'<td><button style="--side: var(--{"won" if share > 0.5 else "lost"}); '
+        f'--strength: {STRENGTH * abs(share - 0.5):.0f}%" data-law="{escaped(law)}" '
         f'data-rival="{escaped(rival)}" title="{escaped(title)}" aria-label="{escaped(title)}">'
         f"{100 * share:.0f}</button></td>"
     )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import socket
 from typing import Any
 
 from mars2d.core.errors import InputError
@@ -30,7 +29,6 @@ class Live:
     def __init__(self, port: int) -> None:
         with extra("live", "--foxglove needs foxglove-sdk"):
             import foxglove as library
-        _check_free(port)
         foxglove: Any = library
         self._library = foxglove
         self._context = foxglove.Context()
@@ -46,9 +44,13 @@ class Live:
                 self._stale = True
 
         listener: Any = Listener()
-        self._server: Any = foxglove.start_server(
-            name="MARS2D", host=HOST, port=port, context=self._context, server_listener=listener
-        )
+        try:
+            self._server: Any = foxglove.start_server(
+                name="MARS2D", host=HOST, port=port, context=self._context, server_listener=listener
+            )
+        except (RuntimeError, OverflowError) as error:
+            why = f"{error}; name another port, such as 8766"
+            raise InputError(f"--foxglove {port}: {why}") from None
 
     @property
     def port(self) -> int:
@@ -99,14 +101,3 @@ class Live:
 
     def __exit__(self, *_: object) -> None:
         self.close()
-
-
-def _check_free(port: int) -> None:
-    """Refuse a port that another program uses, which the library would wait for."""
-    with socket.socket() as tried:
-        tried.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        try:
-            tried.bind((HOST, port))
-        except (OSError, OverflowError) as error:
-            why = getattr(error, "strerror", None) or "no such port"
-            raise InputError(f"--foxglove {port}: {why}; name another port, such as 8766") from None

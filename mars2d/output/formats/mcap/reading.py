@@ -11,13 +11,12 @@ import numpy as np
 
 from mars2d.core.errors import InputError
 from mars2d.output.formats import header as headers
-from mars2d.output.formats.columns import shapes_of
 from mars2d.output.formats.guard import check_size, reading
 from mars2d.output.formats.mcap.row import decoded
 from mars2d.output.formats.mcap.writing import BEGIN, END, TOPIC, require
 from mars2d.record.contact import CONTACT
 from mars2d.record.message import MESSAGE, as_of, packed
-from mars2d.record.rows import Rows
+from mars2d.record.rows import Rows, shapes_of
 
 MAGIC = b"\x89MCAP0\r\n"
 

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from mars2d.record.rows import Rows
 
 __all__ = [
-    "colors",
     "filled",
+    "look",
     "page",
     "player",
     "replay_data",
@@ -72,7 +72,7 @@ def player(title: str, data: str, first: str = "") -> str:
     """
     words = {
         "title": html.escape(title),
-        "style": colors() + _read("replay.css"),
+        "style": look() + _read("replay.css"),
         "script": first + _script(),
         "data": data,
         "PAUSE": PAUSE,
@@ -101,9 +101,10 @@ def filled(template: str, words: Mapping[str, str]) -> str:
     return re.sub("{{(.*?)}}", lambda found: words[found[1]], template)
 
 
-def colors() -> str:
-    """Return the colours of the light and the dark theme as variables of CSS."""
-    return f":root {{ {_variables(LIGHT)} }}\n:root.dark {{ {_variables(DARK)} }}\n"
+def look() -> str:
+    """Return the style that pages share: colours, light and dark, as variables, and controls."""
+    light, dark = _variables(LIGHT), _variables(DARK)
+    return f":root {{ {light} }}\n:root.dark {{ {dark} }}\n{_read('shared.css')}"
 
 
 def _variables(theme: Theme) -> str:

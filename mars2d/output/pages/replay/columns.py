@@ -40,12 +40,8 @@ class Columns:
         series = np.asarray(values, dtype=np.int64).reshape(shape[0], width).T
         for _ in range(order):
             series = np.diff(series, axis=1, prepend=0)
-        # Numbers of either sign become small numbers without sign: 0, -1, 1, -2 ...
-        signless = ((series << 1) ^ (series >> 63)).astype("<u4")
-        planes = signless.ravel().view(np.uint8).reshape(-1, 4).T
-        used = max((k + 1 for k in range(4) if planes[k].any()), default=0)
-        packed = zlib.compress(np.ascontiguousarray(planes[:used]).tobytes(), 6)
-        entry = {"shape": list(shape), "order": order, "planes": used, **more}
+        packed = zlib.compress(series.astype("<i4").tobytes(), 6)
+        entry = {"shape": list(shape), "order": order, **more}
         self.index[name] = {"at": self.size, "bytes": len(packed), **entry}
         self._parts.append(packed)
         self.size += len(packed)

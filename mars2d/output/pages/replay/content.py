@@ -6,7 +6,6 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mars2d.core.description import snake_case
 from mars2d.core.scene import Scene
@@ -22,8 +21,8 @@ from mars2d.output.layers.trails import (
     prop_trail_colors,
     trail_colors,
 )
-from mars2d.output.pages.replay.columns import Columns, Int, rounded
-from mars2d.output.pages.replay.drawings import Drawing, Flat, Float, flat, follows, pack, shapes_of
+from mars2d.output.pages.replay.columns import Columns, rounded
+from mars2d.output.pages.replay.drawings import Drawing, Flat, Float, flat, pack, shapes_of
 from mars2d.output.raster.theme import LIGHT, mixed
 from mars2d.record.frame import Frame
 from mars2d.record.interventions import leaps_of
@@ -46,9 +45,6 @@ FINE, TURN, COARSE = 2**-20, 2 * np.pi / 2**16, 2**-16
 
 LEAP = 0.12
 """The share of the view beyond which a shape leaps between rows, rather than moving evenly."""
-
-ELSEWHERE = np.array([0.7, -0.4, 1.1])
-"""A pose that tells what turns with a body from what only moves with it."""
 
 
 def content_of(record: Rows) -> tuple[dict[str, Any], Columns]:
@@ -91,7 +87,7 @@ class _Content:
         return header, self.columns
 
     def _about(self) -> dict[str, Any]:
-        record, scenario, view = self.record, self.scenario, self.view
+        record, scenario = self.record, self.scenario
         bounded = scenario.workspace is not None and scenario.on_exit != "ignore"
         return {
             "title": scenario.title,
@@ -104,7 +100,7 @@ class _Content:
             "changed": len(record.interventions),
             "step": scenario.sampling_time,
             "rows": len(record),
-            "view": [view.xmin, view.xmax, view.ymin, view.ymax],
+            "view": self.view,
             "grid": list(scenario.bounds) if bounded else None,
             "ground": LIGHT.paper if scenario.workspace is None else LIGHT.page,
             "colors": LIGHT._asdict(),
@@ -268,18 +264,12 @@ class _Content:
     def _carried(self, layer: Layer) -> list[Drawing]:
         """Return a layer that moves with bodies: one scene for each, in its frame."""
         assert layer.each is not None
-        each, found = layer.each, []
-
-        def at(body: int, pose: Float) -> Flat:
-            scene = Scene()
-            each(scene, self.scenario, body, pose)
-            return flat(scene.shapes)
-
+        found = []
         for body in range(len(self.scenario.bodies)):
-            here = at(body, np.zeros(3))
-            if here.styles:
-                turns = follows(here, at(body, ELSEWHERE), ELSEWHERE)
-                found.append(Drawing([0], [here], body, upright=not turns))
+            scene = Scene()
+            layer.each(scene, self.scenario, body, np.zeros(3))
+            if scene.shapes:
+                found.append(Drawing([0], [flat(scene.shapes)], body, layer.upright))
         return found
 
     def _add_rows(
@@ -348,14 +338,3 @@ def _progress(ways: Float) -> Float:
     time = np.linspace(0.0, 1.0, len(ways))
     moved = np.concatenate([[0.0], np.cumsum(np.diff(ways, axis=0).max(axis=1, initial=0.0))])
     return time + moved / max(float(moved[-1]), 1e-300)
-
-
-def _gaps(ways: Float, poses: Float, kept: Int, size: float) -> NDArray[np.bool_]:
-    """Return on the way to which kept rows a line would not do for a body's path, (R, n).
-
-    A line does for a path that is less than a tenth longer, as an arc of less than 90 degrees is,
-    or by less than a five hundredth of the view's size.
-    """
-    gone = np.diff(ways[kept], axis=0, prepend=ways[:1])
-    line = np.hypot(*np.diff(poses[kept, :2], axis=0, prepend=poses[:1, :2]).swapaxes(0, 1))
-    return np.asarray(gone - line > np.maximum(0.1 * gone, size / 500))

@@ -21,19 +21,13 @@ class Column {
     this.width = entry.shape.slice(1).reduce((a, b) => a * b, 1);
     this.step = entry.step ?? 1;
     this.every = entry.every ?? 1;
-    this.values = this.joined(bytes);
+    this.values = this.summed(new Int32Array(bytes.buffer));
   }
 
-  // Whole numbers, series by series, from planes of their bytes and differences in time.
-  joined(bytes) {
-    const count = this.rows * this.width, values = new Int32Array(count);
-    for (let plane = 0; plane < this.entry.planes; plane++) {
-      const from = plane * count, shift = 8 * plane;
-      for (let k = 0; k < count; k++) values[k] |= bytes[from + k] << shift;
-    }
-    for (let k = 0; k < count; k++) values[k] = (values[k] >>> 1) ^ -(values[k] & 1);
+  // Whole numbers, series by series, from their differences in time.
+  summed(values) {
     for (let round = 0; round < this.entry.order; round++) {
-      for (let start = 0; start < count; start += this.rows) {
+      for (let start = 0; start < values.length; start += this.rows) {
         const end = start + this.rows;
         for (let k = start + 1; k < end; k++) values[k] += values[k - 1];
       }

@@ -86,27 +86,6 @@ def _thinned(pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
     return np.ascontiguousarray(pixels)
 
 
-def moved(scene: Flat, pose: Float) -> Float:
-    """Return the numbers of a scene that is moved to a pose (3,)."""
-    c, s = np.cos(pose[2]), np.sin(pose[2])
-    result, start = scene.numbers.copy(), 0
-    for style, count in zip(scene.styles, scene.counts, strict=True):
-        end = start + (2 if style[0] == "circle" else count)
-        x, y = scene.numbers[start:end].reshape(-1, 2).T
-        result[start:end] = np.column_stack([
-            pose[0] + c * x - s * y, pose[1] + s * x + c * y
-        ]).ravel()  # fmt: skip
-        start += count
-    return result
-
-
-def follows(here: Flat, there: Flat, pose: Float) -> bool:
-    """Return whether the scene drawn at a pose is the scene at the origin, moved there."""
-    if here.styles != there.styles or here.counts != there.counts:
-        return False
-    return np.allclose(moved(here, pose), there.numbers, atol=1e-9, equal_nan=True)
-
-
 @dataclass(frozen=True)
 class Drawing:
     """Scenes over time: `scenes[k]` is seen from row `rows[k]` on.
