@@ -13,11 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mars2d.core.errors import InputError
-from mars2d.output.formats.columns import shapes_of
 from mars2d.record import interventions
 from mars2d.record.contact import CONTACT
 from mars2d.record.message import MESSAGE
-from mars2d.record.rows import COLUMNS, Rows
+from mars2d.record.rows import COLUMNS, Rows, shapes_of
 from mars2d.scenario import serialize
 
 Columns = Mapping[str, NDArray[Any]]
