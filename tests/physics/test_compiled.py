@@ -143,7 +143,7 @@ def test_the_engine_s_structs_have_their_numbers_where_they_are_looked_for():
 def test_a_space_has_the_number_of_its_next_shape_where_it_is_looked_for():
     space, body = lib.cpSpaceNew(), lib.cpBodyNew(1.0, 1.0)
     lib.cpSpaceAddBody(space, body)
-    number = ffi.cast("uintptr_t *", space) + library._SHAPES
+    number = ffi.cast("uintptr_t *", space) + library.SHAPES
     shapes = [lib.cpCircleShapeNew(body, 1.0, (0.0, 0.0)) for _ in range(3)]
     for k, shape in enumerate(shapes):
         assert number[0] == k

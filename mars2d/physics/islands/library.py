@@ -78,7 +78,7 @@ They are the centre of mass in the body's frame and in the world, its velocity, 
 transformation to the world, and the velocity and spin by which overlaps are corrected.
 """
 
-_SHAPES = (-(-(64 + 3 * _POINTER) // 8) * 8 + 8) // _POINTER + 4
+SHAPES = (-(-(64 + 3 * _POINTER) // 8) * 8 + 8) // _POINTER + 4
 """Where the engine's spaces have the number of the next shape, in addresses."""
 
 # -- values and addresses -----------------------------------------------------------------------
@@ -101,7 +101,7 @@ def doubles(thing: Handle) -> Any:
 
 def number_shapes_again(space: Handle) -> None:
     """Let a space without shapes number those to come as a new one does: their order follows."""
-    ffi.cast("uintptr_t *", space)[_SHAPES] = 0
+    ffi.cast("uintptr_t *", space)[SHAPES] = 0
 
 
 def numbered(number: int) -> Handle:
