@@ -25,7 +25,7 @@ def hold(body: Body, h: cython.double) -> cython.void:
     What else acts on it is thought to go on. If the floor can stop it within the substep, or hold
     it where it rests, that takes no more than it can: else it shares its force between sliding and
     spinning as for the mean of the velocities before and after, and acts against that mean where it
-    is known, elsewhere against the velocity after.
+    is known, elsewhere against the velocity after. On what turns back it acts both ways in turn.
     """
     x: cython.double = (body.applied_x + body.pull_x) * (h / body.mass)
     y: cython.double = (body.applied_y + body.pull_y) * (h / body.mass)
@@ -35,10 +35,15 @@ def hold(body: Body, h: cython.double) -> cython.void:
     twist: cython.double = body.lever * body.stops * h
     rests: cython.bint = length(length(body.vx, body.vy), spin) <= max(1e-6, 0.01 * slide)
     grip: cython.double = body.rest_grip if rests else body.grip
+    per: cython.double = 1.0 / (body.lever * body.lever)
     first: cython.double = length(body.vx + x, body.vy + y) * (body.mass / h)
-    second: cython.double = abs(spin + turn) / (body.lever * body.lever) * (body.moment / h)
+    second: cython.double = abs(spin + turn) * per * (body.moment / h)
+    far: cython.double = length(x, y)
+    holds: cython.bint = (
+        length(far * (body.mass / h), turn * per * (body.moment / h)) <= body.rest_grip
+    )
     body.drift_x = body.drift_y = 0.0
-    if length(first, second) <= grip:
+    if holds and length(first, second) <= grip:
         body.allowed, body.twist_allowed = grip, grip * body.lever
         return
     u: cython.double = max(length(body.vx + x / 2, body.vy + y / 2), 1e-300)
@@ -56,10 +61,20 @@ def hold(body: Body, h: cython.double) -> cython.void:
     size: cython.double = length(first, second)
     body.allowed = body.grip * (first / size)
     body.twist_allowed = body.twist_grip * (second / size)
-    if body.known:
-        more: cython.double = max(1.0, slide / u)
-        body.drift_x = body.vx + x - more * (body.vx + x / 2)
-        body.drift_y = body.vy + y - more * (body.vy + y / 2)
+    if not body.known:
+        return
+    speed: cython.double = length(body.vx, body.vy)
+    against: cython.double = -body.vx * x - body.vy * y
+    if against > 0.9 * speed * far and speed < far + slide:
+        # It acts along with the change until the body turns back, and against it from then on.
+        left: cython.double = 1.0 - 2.0 * speed / (far + slide)
+        body.allowed *= abs(left)
+        more: cython.double = max(1.0, slide / far) if left > 0.0 else -max(1.0, slide / far)
+        body.drift_x, body.drift_y = body.vx + x - more * x, body.vy + y - more * y
+        return
+    more = max(1.0, slide / u)
+    body.drift_x = body.vx + x - more * (body.vx + x / 2)
+    body.drift_y = body.vy + y - more * (body.vy + y / 2)
 
 
 @cython.cclass

@@ -472,11 +472,11 @@ class Island:
                 h = min(h, settings.OFFSET_STEP)
             if body.is_robot and body.solved and body.since > settings.LINGER:
                 h = min(h, body.time_to_brake(accuracy.braking_turn))
-            drawn: cython.bint = body.pulled or (body.tied and accuracy.spring_step < 1e300)
-            if body.slows > 0.0 and drawn:
-                h = self.time_to_stop(body, h, settings.STOP_STEP)
-            elif body.slows > 0.0 and body.touches and self.push_step >= 1e300:
-                h = self.time_to_stop(body, h, settings.OFFSET_STEP)
+            if body.touches and body.slows > 0.0 and self.push_step >= 1e300:
+                # Where no drive pushes it on the floor stops it: there the substep ends.
+                stop: cython.double = length(body.vx, body.vy) / body.slows
+                if 0.0 < stop < h:
+                    h = max(stop, min(h, settings.OFFSET_STEP))
         self.any_solved = False
         for body in self.bodies:
             if body.solved and not body.touches:
@@ -484,19 +484,6 @@ class Island:
                 body.solved = body.slips = body.out_of_reach(h)
                 body.let_go = not body.solved
             self.any_solved = self.any_solved or body.solved
-        return h
-
-    def time_to_stop(self, body: Body, h: cython.double, least: cython.double) -> cython.double:
-        """Return when the floor, and what pulls a prop by now, have stopped it, h s at most.
-
-        There a substep ends where no drive pushes it on, but after `least` seconds at least.
-        """
-        speed: cython.double = length(body.vx, body.vy)
-        along: cython.double = (body.applied_x + body.pull_x) * body.vx
-        along += (body.applied_y + body.pull_y) * body.vy
-        slower: cython.double = body.slows * speed - along / body.mass
-        if 0.0 < speed * speed < slower * h:
-            return max(speed * speed / slower, min(h, least))
         return h
 
     def aim(self, h: cython.double) -> cython.void:

@@ -110,9 +110,6 @@ Karnopp, J. Dyn. Syst. Meas. Control 107, 100 (1985).
 OFFSET_STEP = 1e-3
 """The longest substep of a robot with `force_limited` and `mass_offset` in the open, seconds."""
 
-STOP_STEP = 1e-5
-"""The shortest substep that ends where floor and spring have stopped a prop, seconds."""
-
 LINGER = 3
 """For how many substeps a drive stays engaged after its robot has followed its command again."""
 
