@@ -14,7 +14,6 @@ from mars2d.core.errors import InputError, MissingExtraError
 from mars2d.core.extras import pip_line
 from mars2d.core.scene import Scene
 from mars2d.output.films.film import (
-    ENCODERS,
     cut_of,
     film_record,
     save_film,
@@ -87,16 +86,6 @@ def test_the_frames_of_an_mp4_are_the_pictures_in_their_order(tmp_path):
     apart = np.array([[np.abs(picture - wanted).mean() for wanted in drawn] for picture in shown])
     assert apart.argmin(axis=1).tolist() == list(range(21))
     assert apart.min(axis=1).max() < 2.0
-
-
-def test_an_mp4_that_still_grows_can_be_played_up_to_a_second_ago(tmp_path):
-    pytest.importorskip("av")
-    encoder = ENCODERS[".mp4"](tmp_path / "film.mp4", 5)
-    for frame in frames():
-        encoder.add(Artist(SIZE).paint(frame))
-    with av_open(tmp_path / "film.mp4") as film:
-        assert 15 <= sum(1 for _ in film.decode(video=0)) < 21
-    encoder.close()
 
 
 def test_mp4_without_pyav_says_what_to_install(tmp_path, monkeypatch):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,7 +14,7 @@ from mars2d.core.extras import extra
 if TYPE_CHECKING:
     import pygame
 
-OPTIONS = {"movflags": "hybrid_fragmented", "frag_duration": "1000000", "flush_packets": "1"}
+OPTIONS = {"movflags": "hybrid_fragmented", "frag_duration": "1000000"}
 """A file that can be played up to a second ago while it grows, and is a common one at its end."""
 
 # A fixed quality needs no look at later pictures: as good as crf 22, a third quicker.
@@ -43,7 +44,8 @@ class Mp4:
         """Begin."""
         import av
 
-        self._container: Any = av.open(str(path), "w", format="mp4", options=OPTIONS)
+        self._file = _Quiet(path.open("wb"))
+        self._container: Any = av.open(self._file, "w", format="mp4", options=OPTIONS)
         self._fps = Fraction(fps).limit_denominator(1001)
         self._stream: Any = None
 
@@ -66,6 +68,7 @@ class Mp4:
             dst_color_range=ColorRange.MPEG,
         )
         self._container.mux(self._stream.encode(video))
+        self._file.check()
 
     def close(self) -> None:
         """Write the pictures that still wait for later ones, and the end."""
@@ -74,6 +77,8 @@ class Mp4:
                 self._container.mux(self._stream.encode(None))
         finally:
             self._container.close()
+            self._file.file.close()
+        self._file.check()
 
     def _begin(self, size: tuple[int, int]) -> None:
         self._stream = stream = self._container.add_stream("libx264", rate=self._fps)
@@ -82,3 +87,33 @@ class Mp4:
         context = stream.codec_context
         context.colorspace = context.color_primaries = context.color_trc = BT709
         context.color_range = 1  # of video: black is 16, white 235
+
+
+class _Quiet:
+    """A file that keeps its first error until it is asked: after one FFmpeg ends the process."""
+
+    def __init__(self, file: Any) -> None:
+        self.file = file
+        self.read, self.tell = file.read, file.tell
+        self._error: OSError | None = None
+
+    def write(self, data: bytes) -> int:
+        """Write, unless that has failed before."""
+        return self._tried(self.file.write, data) or len(data)
+
+    def seek(self, offset: int, whence: int = 0) -> int:
+        """Go to another place, unless something has failed before."""
+        return self._tried(self.file.seek, offset, whence) or 0
+
+    def check(self) -> None:
+        """Raise the error, if there was one."""
+        if self._error is not None:
+            raise self._error
+
+    def _tried(self, act: Callable[..., int], *values: object) -> int | None:
+        if self._error is None:
+            try:
+                return act(*values)
+            except OSError as error:
+                self._error = error
+        return None
