@@ -132,7 +132,7 @@ def test_after_a_slider_r_runs_again_with_its_value_and_predicts(open_window):
     assert "R: again with mu = 0.4, and predict." in panel._words()
     window.press("r", "Right")
     window.settle()
-    assert panel._timeline.options == {"mu": 0.4}
+    assert panel._timeline.experiment.options == {"mu": 0.4}
     assert panel._words() == "Nothing is measured yet.", "it predicts, as of a run unchanged"
 
 
