@@ -362,6 +362,7 @@ def test_leaving_asks_when_something_would_be_lost(open_editor, tmp_path):
 def test_f5_runs_the_file_in_this_window_and_comes_back(open_editor, monkeypatch):
     ran, run = [], lambda window, screen: ran.append((window, screen.get_size()))
     monkeypatch.setattr(display, "NOT_REAL", ())
+    display._tried.clear()  # by whoever has asked for one before
     monkeypatch.setattr(PlayerWindow, "_loop", run)
     hands = open_editor(team((0, 0), stop_time=0.5))
     hands.resize(660, 520)
