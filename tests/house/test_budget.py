@@ -17,7 +17,7 @@ LINES = {
     "core": 3_084,
     "geometry": 1_524,
     "output": 10_336,
-    "physics": 7_618,
+    "physics": 7_617,
     "record": 1_618,
     "reports": 631,
     "rl": 851,

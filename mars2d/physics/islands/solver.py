@@ -79,11 +79,9 @@ class Solver:
             chipmunk.add_shape(self.space, shape.handle)
         body.solver, body.placed = self, True
         self.bodies.append(body)
-        shapes: cython.int = 0
-        for other in self.bodies:
-            shapes += len(other.shapes)
-        self.large = self.large or shapes > SMALL
-        if not body.is_robot and body.rest_grip > 0.0:  # the floor is another one in each space
+        if not self.large:
+            self.large = sum([len(other.shapes) for other in self.bodies]) > SMALL
+        if not body.is_robot and body.rest_grip > 0.0:  # the floor's impulses begin anew
             body.allowed = body.twist_allowed = 0.0
             body.applied_x = body.applied_y = body.applied_turn = 0.0
             body.known = False
@@ -112,6 +110,7 @@ class Solver:
                     chipmunk.set_type(piece.shape, library.JOINED)
         if body.is_robot or body.rest_grip > 0.0:
             body.control = chipmunk.new_control()
+        if body.is_robot:
             self.attach(body)
 
     def attach(self, body: Body) -> cython.void:
